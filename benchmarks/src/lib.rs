@@ -1,0 +1,1 @@
+//! Whole-workspace benchmarks; see the files beside this package.

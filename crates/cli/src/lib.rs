@@ -1,0 +1,1 @@
+//! The noisefloor command as a library, one verb per file

@@ -1,0 +1,1 @@
+//! The Denoiser trait, method cards, registry entries, errors and the Guarded combinator

@@ -1,0 +1,32 @@
+//! The data every other crate speaks: planar images, estimates with their statistics, frames,
+//! references, and mergeable running statistics.
+//!
+//! Words with one meaning each:
+//!
+//! * **mean**: the noisy pixel value, linear scene-referred radiance, unbounded, per channel.
+//! * **variance**: always the variance *of the mean*, see [`Variance`]; the constructors say where
+//!   it came from, so that a factor of `n` or 2 cannot be lost.
+//! * **half buffers**: means of two disjoint and mutually independent sets of the samples.
+//! * **reference**: a high-sample-count estimate from other random numbers, made of independent parts.
+//!
+//! This crate opens no file, reads no clock and spawns no thread.
+
+mod error;
+mod estimate;
+mod feature;
+mod frame;
+mod image;
+mod provenance;
+mod reference;
+mod running;
+mod samples;
+
+pub use error::FrameError;
+pub use estimate::{Estimate, Variance};
+pub use feature::FeatureId;
+pub use frame::{Flash, Frame, Hygiene, Sampling};
+pub use image::{Image, luminance};
+pub use provenance::{Camera, PixelFilter, Provenance};
+pub use reference::{Reference, SquaredError};
+pub use running::{BLOCK_SAMPLES, BlockTree, Moments};
+pub use samples::{Counts, Samples};

@@ -1,0 +1,1 @@
+//! OpenEXR files to frames and back, including other renderers' conventions

@@ -1,0 +1,1 @@
+//! Fast shared filter kernels, each beside a slow obvious twin

@@ -1,0 +1,1 @@
+//! Evaluation workbench for Monte Carlo denoisers: the facade and the command

@@ -1,0 +1,1 @@
+//! A deterministic path tracer that records frames with their statistics

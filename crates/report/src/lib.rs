@@ -1,0 +1,1 @@
+//! Records and summaries to plots, tables and one self-contained HTML page

@@ -1,0 +1,1 @@
+//! Intervals, coverage, bounds, slopes and comparisons: numbers in, numbers out

@@ -1,0 +1,1 @@
+//! Synthetic frames with exactly known truth and a chosen sample law

@@ -1,0 +1,1 @@
+//! Test-only: synthetic frames, derived tolerances and the conformance suite

@@ -1,0 +1,1 @@
+//! Whole-workspace tests; see the files beside this package.
