@@ -1,1 +1,63 @@
-//! The Denoiser trait, method cards, registry entries, errors and the Guarded combinator
+//! The contract between denoisers and everything that runs them.
+//!
+//! A method is two functions: [`Denoiser::card`] says who it is, what it needs and what it claims;
+//! [`Denoiser::denoise`] does the work. The trait is object-safe, takes `&self`, and keeps no state between calls,
+//! so a harness can hold a list of boxed methods, refuse a method before any work, and run it on many frames.
+//! What that shape costs: a method cannot learn from one frame for the next; neighbours of an animation come in
+//! through [`Input`].
+//!
+//! A complete method:
+//!
+//! ```
+//! use noisefloor_denoiser::{Citation, DenoiseError, Denoiser, Input, MethodCard, Output};
+//!
+//! /// Returns the input.
+//! struct Identity;
+//!
+//! impl Denoiser for Identity {
+//!     fn card(&self) -> MethodCard {
+//!         MethodCard::new("identity", "Identity", Citation { key: "none", text: "no source" })
+//!     }
+//!     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+//!         Ok(Output::from_image(input.target.color.mean.clone()))
+//!     }
+//! }
+//! ```
+//!
+//! To be found by name, a method also gives an [`Entry`], and a [`Registry`] is a list of entries.
+
+mod card;
+mod entry;
+mod error;
+mod guarded;
+mod input;
+mod mc;
+mod output;
+mod registry;
+mod timer;
+
+pub use card::{Citation, Claim, Claims, MethodCard, Need};
+pub use entry::{BuildError, Entry, ParamDoc, build_with, params_from};
+pub use error::DenoiseError;
+pub use guarded::Guarded;
+pub use input::{Diagnostics, Input};
+pub use mc::{MC_ENTRY, MonteCarlo};
+pub use output::{Bound, Output, StageSeconds};
+pub use registry::{Method, Registry};
+pub use timer::StageTimer;
+
+/// A denoiser: see the crate documentation for a complete one.
+pub trait Denoiser: Send + Sync {
+    /// Identity, citation, inputs it needs and claims. Cheap; does not depend on any frame.
+    fn card(&self) -> MethodCard;
+
+    /// Denoises `input.target`.
+    ///
+    /// The same input gives the same bits for any number of threads. The target has been sanitised (no non-finite values) by
+    /// whoever built the [`Input`], see [`Input::new`].
+    ///
+    /// # Errors
+    /// [`DenoiseError::MissingInputs`] before any work if something in [`MethodCard::needs`] is absent, and whatever the
+    /// method's own limits are.
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError>;
+}

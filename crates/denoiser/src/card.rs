@@ -1,0 +1,138 @@
+use std::fmt;
+
+use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
+use noisefloor_stats::Level;
+
+/// Where a method comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Citation {
+    /// Short key such as `moon2013flash`.
+    pub key: &'static str,
+    /// Authors, title, venue, year.
+    pub text: &'static str,
+}
+
+/// One input that a method cannot run without.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Need {
+    /// Variance of the colour mean.
+    ColorVariance,
+    /// Half buffers of the colour.
+    ColorHalves,
+    /// At least this many samples in every pixel.
+    Samples(u32),
+    /// Independent samples, so that s²/n is the variance of the mean.
+    IndependentSamples,
+    /// A feature's mean.
+    Feature(FeatureId),
+    /// A feature's mean and its variance.
+    FeatureVariance(FeatureId),
+    /// The virtual flash image: either ready-made or in parts.
+    Flash,
+    /// Variance of the virtual flash image (for parts: of both).
+    FlashVariance,
+}
+
+impl Need {
+    /// Whether the frame has it.
+    #[must_use]
+    pub fn is_met(&self, frame: &Frame) -> bool {
+        match self {
+            Self::ColorVariance => frame.color.variance.is_some(),
+            Self::ColorHalves => frame.color.halves.is_some(),
+            Self::Samples(n) => frame.samples.total().least() >= *n,
+            Self::IndependentSamples => frame.sampling == Sampling::Independent,
+            Self::Feature(id) => frame.feature(id).is_some(),
+            Self::FeatureVariance(id) => frame.feature(id).is_some_and(|f| f.variance.is_some()),
+            Self::Flash => frame.flash.is_some(),
+            Self::FlashVariance => match &frame.flash {
+                Some(Flash::Parts { base, light, .. }) => base.variance.is_some() && light.variance.is_some(),
+                Some(Flash::Ready(flash)) => flash.variance.is_some(),
+                None => false,
+            },
+        }
+    }
+}
+
+impl fmt::Display for Need {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ColorVariance => f.write_str("variance of the colour mean"),
+            Self::ColorHalves => f.write_str("half buffers of the colour"),
+            Self::Samples(n) => write!(f, "at least {n} samples in every pixel"),
+            Self::IndependentSamples => f.write_str("independent samples"),
+            Self::Feature(id) => write!(f, "feature `{id}`"),
+            Self::FeatureVariance(id) => write!(f, "feature `{id}` with its variance"),
+            Self::Flash => f.write_str("virtual flash image"),
+            Self::FlashVariance => f.write_str("variance of the virtual flash image"),
+        }
+    }
+}
+
+/// What a method promises, each with its conditions in [`MethodCard::notes`].
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Claims {
+    /// |D−x̄| ≤ factor · t(level)·s/√n holds always, per pixel and channel.
+    pub enclosure: Vec<Claim>,
+    /// P(|D−μ| ≤ factor · t(level)·s/√n) ≥ 1−α per pixel and channel.
+    pub error_bound: Vec<Claim>,
+    /// Claimed to converge to the truth as n → ∞.
+    pub consistent: bool,
+    /// Gives a per-pixel estimate of its own error.
+    pub estimates_error: bool,
+}
+
+/// One half-width as a sum of t(level)·s/√n terms.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Claim {
+    /// Name shown in reports, such as `Theorem 3.1`.
+    pub name: &'static str,
+    /// Half-width = Σ factor·t(level)·s/√n.
+    pub terms: Vec<(f64, Level)>,
+    /// 1−α that the bound is claimed for; meaningless for an enclosure, which is certain.
+    pub level: Level,
+    /// Whether a proof covers this exact procedure; otherwise it is reported as measured only.
+    pub proven: bool,
+}
+
+/// Identity, requirements and claims of a configured method.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MethodCard {
+    /// Stable id such as `virtual-flash` or `guarded(virtual-flash)`.
+    pub id: String,
+    /// Name for people.
+    pub name: String,
+    /// Source.
+    pub citation: Citation,
+    /// Inputs it cannot run without.
+    pub needs: Vec<Need>,
+    /// Inputs it uses if present; a renderer records these too.
+    pub uses: Vec<Need>,
+    /// Promises.
+    pub claims: Claims,
+    /// Conditions, deviations and known failures worth a line in a report.
+    pub notes: Vec<String>,
+}
+
+impl MethodCard {
+    /// A card that needs and claims nothing.
+    #[must_use]
+    pub fn new(id: impl Into<String>, name: impl Into<String>, citation: Citation) -> Self {
+        Self {
+            id: id.into(),
+            name: name.into(),
+            citation,
+            needs: Vec::new(),
+            uses: Vec::new(),
+            claims: Claims::default(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// The needs that a frame does not meet.
+    #[must_use]
+    pub fn missing(&self, frame: &Frame) -> Vec<Need> {
+        self.needs.iter().filter(|need| !need.is_met(frame)).cloned().collect()
+    }
+}

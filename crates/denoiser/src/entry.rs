@@ -1,0 +1,151 @@
+use std::fmt;
+
+use serde::{Serialize, de::DeserializeOwned};
+use serde_json::{Map, Value};
+use thiserror::Error;
+
+use crate::Denoiser;
+
+/// One line of a method's parameter table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ParamDoc {
+    /// Field name in configurations.
+    pub name: &'static str,
+    /// Allowed values, with unit.
+    pub range: &'static str,
+    /// What it does; symbol and section of the source.
+    pub about: &'static str,
+}
+
+/// How a method is found by name and built from parameters.
+#[derive(Clone, Copy)]
+pub struct Entry {
+    /// Stable id.
+    pub id: &'static str,
+    /// One line for lists.
+    pub summary: &'static str,
+    /// Parameter table; the names are exactly the fields of `defaults`.
+    pub params: &'static [ParamDoc],
+    /// All parameters at their defaults, as a JSON object.
+    pub defaults: fn() -> Value,
+    /// Builds the method from overrides of the defaults (a JSON object); see [`build_with`].
+    pub build: fn(&Map<String, Value>) -> Result<Box<dyn Denoiser>, BuildError>,
+}
+
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Entry").field("id", &self.id).finish_non_exhaustive()
+    }
+}
+
+/// Why a name and its parameters give no method.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// No entry of this name.
+    #[error("unknown method `{id}`; nearest: {}", nearest.join(", "))]
+    UnknownMethod {
+        /// Name given.
+        id: String,
+        /// The closest names that exist.
+        nearest: Vec<String>,
+    },
+    /// The method has no such parameter.
+    #[error("method `{method}` has no parameter `{parameter}`; {}", known(nearest))]
+    UnknownParameter {
+        /// Method id.
+        method: String,
+        /// Name given.
+        parameter: String,
+        /// The closest names that exist, each with its range.
+        nearest: Vec<String>,
+    },
+    /// A value of the wrong type or out of range.
+    #[error("method `{method}`: parameter `{parameter}` is {value}; allowed: {range}")]
+    OutOfRange {
+        /// Method id.
+        method: String,
+        /// Parameter.
+        parameter: String,
+        /// Value given.
+        value: String,
+        /// Allowed values.
+        range: String,
+    },
+}
+
+fn known(nearest: &[String]) -> String {
+    if nearest.is_empty() { "it takes none".into() } else { format!("nearest: {}", nearest.join("; ")) }
+}
+
+/// Merges overrides into the defaults and deserialises the parameter struct.
+///
+/// # Errors
+/// [`BuildError::UnknownParameter`] listing the nearest names with their ranges, [`BuildError::OutOfRange`] for
+/// values of the wrong type.
+pub fn params_from<P: Default + Serialize + DeserializeOwned>(
+    method: &str,
+    docs: &[ParamDoc],
+    overrides: &Map<String, Value>,
+) -> Result<P, BuildError> {
+    for name in overrides.keys() {
+        if !docs.iter().any(|doc| doc.name == name) {
+            return Err(BuildError::UnknownParameter {
+                method: method.into(),
+                parameter: name.clone(),
+                nearest: nearest(name, docs.iter().map(|d| d.name))
+                    .into_iter()
+                    .filter_map(|n| docs.iter().find(|d| d.name == n))
+                    .map(|doc| format!("{} ({})", doc.name, doc.range))
+                    .collect(),
+            });
+        }
+    }
+    // One at a time, so that a wrong type is blamed on the parameter that has it.
+    let mut merged = serde_json::to_value(P::default()).unwrap_or(Value::Null);
+    let mut params = P::default();
+    for (name, value) in overrides {
+        merged[name] = value.clone();
+        params = serde_json::from_value(merged.clone()).map_err(|_| BuildError::OutOfRange {
+            method: method.into(),
+            parameter: name.clone(),
+            value: value.to_string(),
+            range: docs.iter().find(|d| d.name == name).map_or_else(String::new, |d| d.range.into()),
+        })?;
+    }
+    Ok(params)
+}
+
+/// [`params_from`] followed by the method's own validating constructor, which names a parameter that is out of range.
+///
+/// # Errors
+/// As [`params_from`], or [`BuildError::OutOfRange`] for the parameter that `new` rejects.
+pub fn build_with<P, D>(
+    method: &str,
+    docs: &[ParamDoc],
+    overrides: &Map<String, Value>,
+    new: impl FnOnce(P) -> Result<D, &'static str>,
+) -> Result<Box<dyn Denoiser>, BuildError>
+where
+    P: Default + Serialize + DeserializeOwned,
+    D: Denoiser + 'static,
+{
+    let params: P = params_from(method, docs, overrides)?;
+    let given = serde_json::to_value(&params).unwrap_or(Value::Null);
+    match new(params) {
+        Ok(denoiser) => Ok(Box::new(denoiser)),
+        Err(name) => Err(BuildError::OutOfRange {
+            method: method.into(),
+            parameter: name.into(),
+            value: given.get(name).map_or_else(String::new, ToString::to_string),
+            range: docs.iter().find(|d| d.name == name).map_or_else(String::new, |d| d.range.into()),
+        }),
+    }
+}
+
+/// The three names closest to `given`, closest first.
+pub(crate) fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut ranked: Vec<(f64, &str)> = names.map(|n| (strsim::jaro_winkler(given, n), n)).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    ranked.into_iter().take(3).map(|(_, n)| n.to_owned()).collect()
+}

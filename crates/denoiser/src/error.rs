@@ -1,0 +1,51 @@
+use noisefloor_frame::FrameError;
+use thiserror::Error;
+
+use crate::Need;
+
+/// Why a method did not give an image.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum DenoiseError {
+    /// Inputs that the method needs are absent; found before any work.
+    #[error("{method} needs {}", list(missing))]
+    MissingInputs {
+        /// Method id.
+        method: String,
+        /// Everything that is missing.
+        missing: Vec<Need>,
+    },
+    /// The buffers of the input do not fit together.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// The method's own arithmetic has no answer for some pixels.
+    #[error("{method}: {what} in {pixels} pixels, first at ({x}, {y})")]
+    Undefined {
+        /// Method id.
+        method: String,
+        /// What has no answer, such as `weight sum is zero`.
+        what: &'static str,
+        /// Pixels affected.
+        pixels: usize,
+        /// Column of the first.
+        x: usize,
+        /// Row of the first.
+        y: usize,
+    },
+    /// A parameter that only a frame can show to be out of range, such as a probe outside the image.
+    #[error("{method}: parameter {parameter} is {value}, allowed here: {allowed}")]
+    Parameter {
+        /// Method id.
+        method: String,
+        /// Parameter name.
+        parameter: &'static str,
+        /// Value given.
+        value: String,
+        /// Allowed range.
+        allowed: String,
+    },
+}
+
+fn list(needs: &[Need]) -> String {
+    needs.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,136 @@
+use noisefloor_frame::Image;
+use noisefloor_stats::{Level, TTable};
+use serde_json::Value;
+
+use crate::{BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output};
+
+/// Projects any method's output into the confidence interval of the input mean:
+/// D' = clamp(D, x̄ − t·s/√n, x̄ + t·s/√n) per pixel and channel.
+///
+/// The proof of Theorem 3.1 in Moon et al. 2013 (moon2013flash, App. A) uses nothing of the filter but that D lies in
+/// that interval, so the projected output carries the same bound: P(|D'−μ| ≤ 2·t·s/√n) ≥ 1−α wherever the
+/// interval itself covers μ with probability 1−α (exactly for independent normal samples).
+pub struct Guarded {
+    inner: Box<dyn Denoiser>,
+    level: Level,
+}
+
+impl std::fmt::Debug for Guarded {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Guarded").field("id", &self.card().id).field("level", &self.level).finish()
+    }
+}
+
+impl Guarded {
+    /// Level unless said otherwise: 99 %, that of the source work's second step.
+    pub const DEFAULT_LEVEL: Level = Level::TWO_SIDED_99;
+
+    /// Guards `inner` at a two-sided `level`.
+    #[must_use]
+    pub fn new(inner: Box<dyn Denoiser>, level: Level) -> Self {
+        Self { inner, level }
+    }
+
+    pub(crate) fn from_parts(id: &str, inner: Method, level: Option<Value>) -> Result<Method, BuildError> {
+        let out_of_range = |value: &Value| BuildError::OutOfRange {
+            method: id.into(),
+            parameter: "guard_level".into(),
+            value: value.to_string(),
+            range: "two-sided confidence in (0, 1)".into(),
+        };
+        let level = match &level {
+            None => Self::DEFAULT_LEVEL,
+            Some(value) => value
+                .as_f64()
+                .and_then(|confidence| Level::two_sided(confidence).ok())
+                .ok_or_else(|| out_of_range(value))?,
+        };
+        let mut params = inner.params;
+        params["guard_level"] = level.confidence().into();
+        Ok(Method { id: id.into(), params, denoiser: Box::new(Self::new(inner.denoiser, level)) })
+    }
+}
+
+/// Half-widths t·s/√n per pixel and channel.
+pub(crate) fn half_widths(
+    variance: &Image,
+    counts: impl Fn(usize) -> u32,
+    level: Level,
+    least: u32,
+) -> Image {
+    let table = TTable::new(level, least);
+    let mut out = variance.clone();
+    // Consecutive pixels mostly share a count; the table lookup beyond its end is costly.
+    let mut last = (0, f64::INFINITY);
+    for plane in out.planes_mut() {
+        for (pixel, value) in plane.iter_mut().enumerate() {
+            let n = counts(pixel);
+            if n != last.0 {
+                last = (n, table.at(n));
+            }
+            *value = (last.1 * f64::from(value.max(0.0)).sqrt()) as f32;
+        }
+    }
+    out
+}
+
+impl Denoiser for Guarded {
+    fn card(&self) -> MethodCard {
+        let mut card = self.inner.card();
+        card.id = format!("guarded({})", card.id);
+        card.name = format!("guarded {}", card.name);
+        for need in [Need::ColorVariance, Need::Samples(2)] {
+            if !card.needs.contains(&need) {
+                card.needs.push(need);
+            }
+        }
+        let claim = |name, factor, proven| Claim {
+            name,
+            terms: vec![(factor, self.level)],
+            level: self.level,
+            proven,
+        };
+        card.claims.enclosure = vec![claim("interval", 1.0, true)];
+        card.claims.error_bound = vec![claim("Theorem 3.1", 2.0, true)];
+        card.claims.consistent = true;
+        card.notes.push(format!(
+            "projected into the {} % interval of the input mean",
+            (100.0 * self.level.confidence() * 1e6).round() / 1e6
+        ));
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let mut output = self.inner.denoise(input)?;
+        let frame = input.target;
+        let variance =
+            frame.color.variance.as_ref().expect("checked against the card's needs").mean_variance();
+        let widths =
+            half_widths(variance, |p| frame.samples.at(p), self.level, frame.samples.total().least());
+        let mean = &frame.color.mean;
+        let mut moved = 0usize;
+        for ((value, &centre), &width) in
+            output.image.data_mut().iter_mut().zip(mean.data()).zip(widths.data())
+        {
+            let (low, high) = (centre - width, centre + width);
+            // Written so that a NaN from the inner method becomes the centre, never NaN.
+            let projected = if *value >= low && *value <= high {
+                *value
+            } else if *value > high {
+                high
+            } else if *value < low {
+                low
+            } else {
+                centre
+            };
+            moved += usize::from(projected != *value);
+            *value = projected;
+        }
+        // The inner method's own bound or error estimate does not describe the projected image.
+        output.bounds.clear();
+        output.error_estimate = None;
+        output.figures.push(("projected values".into(), moved as f64));
+        Ok(output)
+    }
+}

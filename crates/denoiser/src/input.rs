@@ -1,0 +1,57 @@
+use noisefloor_frame::Frame;
+
+use crate::{DenoiseError, MethodCard};
+
+/// Whether a method should spend time on diagnostic images.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Diagnostics {
+    /// Only the image: what is timed.
+    #[default]
+    Off,
+    /// Everything the source work's figures show, probing this pixel `(x, y)` where a figure needs one
+    /// (`None`: the middle of the image).
+    On {
+        /// Column and row of the pixel to look at.
+        probe: Option<(usize, usize)>,
+    },
+}
+
+/// What a method gets.
+#[derive(Debug, Clone, Copy)]
+pub struct Input<'a> {
+    /// The frame to denoise, sanitised.
+    pub target: &'a Frame,
+    /// Neighbouring frames of an animation in time order, earlier ones first; usually empty.
+    pub before: &'a [Frame],
+    /// Neighbouring frames after the target.
+    pub after: &'a [Frame],
+    /// What to compute beside the image.
+    pub diagnostics: Diagnostics,
+}
+
+impl<'a> Input<'a> {
+    /// A single frame, which the caller has passed through [`Frame::sanitize`].
+    #[must_use]
+    pub fn new(target: &'a Frame) -> Self {
+        Self { target, before: &[], after: &[], diagnostics: Diagnostics::Off }
+    }
+
+    /// Asks for diagnostics.
+    #[must_use]
+    pub fn with_diagnostics(self, diagnostics: Diagnostics) -> Self {
+        Self { diagnostics, ..self }
+    }
+
+    /// Refuses before any work: every need of the card must be met and all buffers must fit together.
+    ///
+    /// # Errors
+    /// [`DenoiseError::MissingInputs`] with all that is missing, or [`DenoiseError::Frame`].
+    pub fn check(&self, card: &MethodCard) -> Result<(), DenoiseError> {
+        let missing = card.missing(self.target);
+        if !missing.is_empty() {
+            return Err(DenoiseError::MissingInputs { method: card.id.clone(), missing });
+        }
+        self.target.check()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,117 @@
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use crate::Level;
+
+/// Critical value of Student's t at `level` with `degrees` ≥ 1 degrees of freedom.
+///
+/// Newton steps on the distribution function refine the library's inverse, whose bisection stops early.
+#[must_use]
+pub fn t_quantile(level: Level, degrees: u64) -> f64 {
+    let degrees = degrees.max(1) as f64;
+    let t = StudentsT::new(0.0, 1.0, degrees).expect("location 0, scale 1, at least one degree of freedom");
+    let tail = level.upper_tail();
+    let start = t.inverse_cdf(1.0 - tail);
+    refine(start, tail, |x| t.sf(x), |x| statrs::distribution::Continuous::pdf(&t, x))
+}
+
+/// Critical value of the standard normal distribution at `level`.
+#[must_use]
+pub fn normal_quantile(level: Level) -> f64 {
+    let normal = Normal::standard();
+    let tail = level.upper_tail();
+    let start = normal.inverse_cdf(1.0 - tail);
+    refine(start, tail, |x| normal.sf(x), |x| statrs::distribution::Continuous::pdf(&normal, x))
+}
+
+fn refine(mut x: f64, tail: f64, sf: impl Fn(f64) -> f64, pdf: impl Fn(f64) -> f64) -> f64 {
+    for _ in 0..4 {
+        let density = pdf(x);
+        if density <= 0.0 {
+            break;
+        }
+        let step = (sf(x) - tail) / density; // density > 0
+        if !step.is_finite() || step.abs() > 0.5 * x.abs() {
+            break;
+        }
+        x += step;
+    }
+    x
+}
+
+/// Critical values by sample count, computed once: index n gives t with n−1 degrees of freedom.
+#[derive(Debug, Clone)]
+pub struct TTable {
+    level: Level,
+    by_count: Vec<f64>,
+    beyond: f64,
+}
+
+impl TTable {
+    /// Sample counts above this use the normal quantile, whose relative distance is then below 0.03 %
+    /// at 99.8 %.
+    pub const LARGEST: u32 = 8192;
+
+    /// A table for sample counts 2 to `largest` (at most [`TTable::LARGEST`]).
+    #[must_use]
+    pub fn new(level: Level, largest: u32) -> Self {
+        let largest = largest.clamp(2, Self::LARGEST);
+        let mut by_count = vec![f64::INFINITY; 2];
+        by_count.extend((2..=largest).map(|n| t_quantile(level, u64::from(n) - 1)));
+        Self { level, by_count, beyond: normal_quantile(level) }
+    }
+
+    /// The table's level.
+    #[must_use]
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// Critical value for `n` samples; infinite below 2, where no interval exists.
+    #[must_use]
+    pub fn at(&self, n: u32) -> f64 {
+        match self.by_count.get(n as usize) {
+            Some(&t) => t,
+            None if n > Self::LARGEST => self.beyond,
+            None => t_quantile(self.level, u64::from(n) - 1),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn critical_values_match_printed_tables() {
+        let table = [(3, 10.2145, 5.8409), (15, 3.7328, 2.9467), (63, 3.2247, 2.6561)];
+        for (degrees, t998, t99) in table {
+            assert!((t_quantile(Level::TWO_SIDED_998, degrees) - t998).abs() < 6e-5);
+            assert!((t_quantile(Level::TWO_SIDED_99, degrees) - t99).abs() < 6e-5);
+        }
+        assert!((normal_quantile(Level::TWO_SIDED_998) - 3.0902).abs() < 6e-5);
+        assert!((normal_quantile(Level::TWO_SIDED_99) - 2.5758).abs() < 6e-5);
+        // One degree of freedom is the Cauchy distribution: tan(π(½−α/2)).
+        let exact = (std::f64::consts::PI * (0.5 - 0.025)).tan();
+        assert!((t_quantile(Level::TWO_SIDED_95, 1) - exact).abs() < 1e-9 * exact);
+    }
+
+    #[test]
+    fn table_decreases_towards_the_normal_quantile() {
+        let table = TTable::new(Level::TWO_SIDED_998, 300);
+        assert_eq!(table.at(1), f64::INFINITY);
+        let mut last = f64::INFINITY;
+        for n in [2, 3, 4, 16, 64, 300, 301, 1024, TTable::LARGEST, TTable::LARGEST + 1, u32::MAX] {
+            assert!(table.at(n) < last || n == u32::MAX, "n = {n}");
+            last = table.at(n);
+        }
+        assert!((table.at(TTable::LARGEST) / table.at(u32::MAX) - 1.0).abs() < 4e-4);
+    }
+
+    #[test]
+    fn five_thousand_samples_are_tabulated_without_drift() {
+        let table = TTable::new(Level::TWO_SIDED_99, 5000);
+        for n in [2u32, 17, 500, 5000] {
+            assert_eq!(table.at(n), t_quantile(Level::TWO_SIDED_99, u64::from(n) - 1));
+        }
+    }
+}
