@@ -1,0 +1,174 @@
+//! One JSON line per finished cell of a study (`results.jsonl`).
+
+use std::collections::BTreeMap;
+
+use noisefloor_denoiser::StageSeconds;
+use noisefloor_frame::Sampling;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// Version of the record format; a reader refuses newer ones.
+pub const RECORD_SCHEMA: u32 = 1;
+
+/// How a cell ended.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "status", rename_all = "kebab-case")]
+pub enum Outcome {
+    /// Ran; the metrics are there.
+    Done,
+    /// Not run, because inputs are missing or the method does not apply.
+    Skipped {
+        /// Why, for the report.
+        reason: String,
+    },
+    /// Ran and ended in a typed error.
+    Failed {
+        /// The error's message.
+        reason: String,
+    },
+}
+
+/// One cell: scene × sampling × spp × replicate × method.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Record {
+    /// [`RECORD_SCHEMA`] when written.
+    pub schema: u32,
+    /// Content hash of all that determines the cell's numbers: frame, method, parameters, metric definitions, program version.
+    pub cell: String,
+    /// Study name.
+    pub study: String,
+    /// Scene id within the study.
+    pub scene: String,
+    /// Kind of sampling of the noisy frame.
+    pub sampling: Sampling,
+    /// Samples per pixel (rounded mean if they vary).
+    pub spp: u32,
+    /// Replicate, from 0.
+    pub replicate: u32,
+    /// Method id such as `virtual-flash`.
+    pub method: String,
+    /// Label of the row in the study; unique within it, equal to the method id unless the study says otherwise.
+    pub label: String,
+    /// All parameters, defaults included.
+    pub params: Value,
+    /// How it ended; its fields stand beside the others as `status` and `reason`.
+    #[serde(flatten)]
+    pub outcome: Outcome,
+    /// Metric id to value, over all pixels; `null` in JSON if not finite. Ids: mse, rmse, relmse, relmse_trimmed, psnr, ssim.
+    pub metrics: BTreeMap<String, Option<f64>>,
+    /// Metric id to the standard error that the reference's own noise contributes (common to all replicates); absent metrics have none stated.
+    #[serde(default)]
+    pub metrics_reference_se: BTreeMap<String, f64>,
+    /// Metric id to standard error within this one image (block bootstrap), only when the study has one replicate.
+    #[serde(default)]
+    pub metrics_within_se: BTreeMap<String, f64>,
+    /// Pixel class to metric id to value.
+    #[serde(default)]
+    pub classes: BTreeMap<String, BTreeMap<String, Option<f64>>>,
+    /// Coverage of the input mean's t-intervals; only on the rows of method `mc`, whose output is that mean.
+    #[serde(default)]
+    pub coverage: Vec<CoverageCount>,
+    /// Violations of each of the method's error bounds.
+    #[serde(default)]
+    pub bounds: Vec<BoundCount>,
+    /// Worst ratio |D−x̄| / (half-width + rounding allowance) per enclosure claim; at most 1 if it held.
+    #[serde(default)]
+    pub enclosures: Vec<EnclosureCheck>,
+    /// Pixels replaced or counted as non-finite in the input and output.
+    #[serde(default)]
+    pub non_finite: NonFinite,
+    /// Named numbers from the method, such as the flash intensity.
+    #[serde(default)]
+    pub figures: BTreeMap<String, f64>,
+    /// Times.
+    pub seconds: Seconds,
+    /// Peak resident memory of the process after the cell, bytes, where the platform tells.
+    pub peak_memory_bytes: Option<u64>,
+    /// Denoised image, relative to the study's folder.
+    pub image: Option<String>,
+    /// Diagnostic images, name to path relative to the study's folder.
+    #[serde(default)]
+    pub diagnostics: BTreeMap<String, String>,
+}
+
+/// Non-finite values met.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NonFinite {
+    /// Invalid pixels of the input frame, filled before denoising.
+    pub input_pixels: usize,
+    /// Negative variances set to zero.
+    pub negative_variances: usize,
+    /// Non-finite values in the output; these pixels are counted, and left out of the metrics.
+    pub output_values: usize,
+}
+
+/// Times of one cell, wall-clock seconds.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Seconds {
+    /// Rendering the input frame (as recorded when it was rendered, possibly in another run).
+    pub render: Option<f64>,
+    /// Denoising: median of `denoise_runs`.
+    pub denoise: Option<f64>,
+    /// All timed runs after the warm-up.
+    #[serde(default)]
+    pub denoise_runs: Vec<f64>,
+    /// Stages of the median run.
+    #[serde(default)]
+    pub stages: Vec<StageSeconds>,
+    /// Threads used.
+    #[serde(default)]
+    pub threads: u32,
+}
+
+/// Coverage of two-sided t-intervals of the input mean in one pixel class, counted over pixel-channels.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CoverageCount {
+    /// 1−α.
+    pub confidence: f64,
+    /// Pixel class, or `all`.
+    pub class: String,
+    /// Pixel-channels with s > 0.
+    pub total: u64,
+    /// Of those: covered, allowing for the reference's noise.
+    pub covered: u64,
+    /// Of those: covered without the allowance.
+    pub covered_uncorrected: u64,
+    /// Pixel-channels with s = 0 whose mean agrees with the truth within the reference's noise.
+    pub constant: u64,
+    /// Pixel-channels with s = 0 whose mean does not: the event was missed by all samples.
+    pub missed: u64,
+}
+
+/// How often |D−μ| exceeded a bound.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BoundCount {
+    /// Name of the claim, such as `Theorem 3.1`.
+    pub claim: String,
+    /// Whether a proof covers the procedure.
+    pub proven: bool,
+    /// α of the claim.
+    pub alpha: f64,
+    /// Pixel class, or `all`.
+    pub class: String,
+    /// Pixel-channels.
+    pub total: u64,
+    /// Violations, allowing for the reference's noise.
+    pub violations: u64,
+    /// Violations without the allowance.
+    pub violations_uncorrected: u64,
+    /// Of the violations: pixel-channels with s = 0, where the interval is a point (missed events).
+    pub violations_missed: u64,
+    /// Mean over pixel-channels of |D−μ| / bound, where the bound is positive.
+    pub mean_ratio: Option<f64>,
+}
+
+/// The certain half of the theorem: |D−x̄| never exceeds the half-width.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EnclosureCheck {
+    /// Name of the claim.
+    pub claim: String,
+    /// Largest |D−x̄| / (t·s/√n·(1+1e-6) + 8·eps·|x̄|) over pixels and channels; 0/0 counts as 0.
+    pub worst_ratio: f64,
+    /// Whether it held everywhere.
+    pub held: bool,
+}
