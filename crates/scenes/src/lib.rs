@@ -1,28 +1,26 @@
 //! Procedural scenes, each declaring exactly what it models.
 //!
-//! A [`Scene`] is plain data; nothing here traces a ray. [`builtin`] lists the scenes by id.
+//! A [`Scene`] is plain data; nothing here traces a ray. [`builtin`] lists the scenes by id and [`find`] looks one
+//! up. [`shape`] and [`Texture`] are the building blocks, open to anybody who puts together a scene of their own;
+//! [`analytic`] has the small scenes whose image is known in closed form.
+//!
+//! Scenes and textures use no random state: placement is hashed from indices ([`hash`]), so a scene is the same
+//! every time it is built.
 
+pub mod analytic;
+mod assemble;
+mod builtin;
+mod catalog;
+mod check;
+pub mod hash;
+mod material;
 mod scene;
+pub mod shape;
 mod texture;
 
+pub use catalog::{SceneEntry, UnknownScene, builtin, find};
+pub use check::SceneError;
 pub use scene::{
     CameraSpec, Color, Lens, Material, MaterialIndex, Mesh, Models, Scattering, Scene, Sky, Sphere, Sun,
 };
 pub use texture::Texture;
-
-/// A scene that can be built by name.
-#[derive(Debug, Clone, Copy)]
-pub struct SceneEntry {
-    /// Stable name.
-    pub id: &'static str,
-    /// What it shows and which figure it stands in for.
-    pub about: &'static str,
-    /// Builds it; deterministic.
-    pub build: fn() -> Scene,
-}
-
-/// All built-in scenes in display order.
-#[must_use]
-pub fn builtin() -> &'static [SceneEntry] {
-    &[]
-}

@@ -1,0 +1,113 @@
+//! Small scenes whose image is known in closed form, for testing renderers.
+
+use glam::Vec3;
+
+use crate::shape::{cuboid, quad};
+use crate::{CameraSpec, Color, Material, Scattering, Scene, Sky, Sun};
+
+fn camera(eye: Vec3, target: Vec3, up: Vec3) -> CameraSpec {
+    CameraSpec { eye, target, up, vertical_fov_degrees: 40.0, lens: None }
+}
+
+/// Inside of a closed box of diffuse reflectance `albedo` in [0, 1) that emits radiance 1 everywhere. Every pixel
+/// is 1/(1 − `albedo`); with paths of at most k surfaces it is the geometric sum of k terms.
+#[must_use]
+pub fn furnace(albedo: f32) -> Scene {
+    let mut scene = Scene::empty("furnace", "White furnace", camera(Vec3::ZERO, -Vec3::Z, Vec3::Y));
+    let wall = Material { emission: Vec3::ONE, ..Material::diffuse("glowing wall", Vec3::splat(albedo)) };
+    let wall = scene.add_material(wall);
+    scene.add_mesh(cuboid(Vec3::splat(-1.0), Vec3::ONE).flipped(), wall);
+    scene
+}
+
+/// A sphere of radius 1 under a sky of radiance 1 from everywhere, filling the middle of the image. What it reflects
+/// is its albedo: a material that loses nothing cannot be seen. A diffuse one of reflectance a shows a, a mirror
+/// its reflectance, glass 1.
+#[must_use]
+pub fn sphere_under_sky(scattering: Scattering) -> Scene {
+    let view = camera(Vec3::Z * 4.0, Vec3::ZERO, Vec3::Y);
+    let mut scene = Scene::empty("sphere-under-sky", "Sphere under a white sky", view);
+    let material = scene.add_material(Material::dark("sphere", scattering));
+    scene.add_sphere(Vec3::ZERO, 1.0, material);
+    scene.sky = Some(Sky::Constant(Vec3::ONE));
+    scene
+}
+
+/// A wide diffuse plane seen from above under a sun of irradiance `irradiance`, `zenith_degrees` (under 80) from
+/// overhead. The reflected radiance is `albedo`/π · `irradiance` · cos(zenith), to second order in the sun's radius.
+#[must_use]
+pub fn plane_under_sun(albedo: impl Into<Color>, irradiance: Vec3, zenith_degrees: f32) -> Scene {
+    let (sin, cos) = zenith_degrees.to_radians().sin_cos();
+    let mut scene = plane("plane-under-sun", "Plane under a sun", albedo);
+    let direction = Vec3::new(sin, cos, 0.0);
+    scene.sun = Some(Sun { direction, half_angle_degrees: 0.25, irradiance });
+    scene
+}
+
+/// A wide diffuse plane at height 0 seen from above, below a square lamp of side `2·half` and radiance 1 at height
+/// `height` that faces down; the camera looks at the point under the lamp's middle from beside it. Irradiance there:
+/// [`panel_irradiance`].
+#[must_use]
+pub fn plane_under_panel(albedo: impl Into<Color>, half: f32, height: f32) -> Scene {
+    let mut scene = plane("direct", "Plane under a square lamp", albedo);
+    // Below the lamp's rim, so that it never hides the point.
+    scene.camera.eye = Vec3::new(2.0 * half, 0.5 * height, 0.0);
+    let lamp = scene.add_material(Material::emitter("lamp", Vec3::ONE));
+    let corner = Vec3::new(-half, height, -half);
+    scene.add_mesh(quad(corner, Vec3::X * (2.0 * half), Vec3::Z * (2.0 * half)), lamp);
+    scene
+}
+
+/// Irradiance from a square of radiance 1 and side `2·half`, parallel to the receiver at distance `height`, at the
+/// point below its middle: four times the view factor of a quarter, times π (Hottel's corner formula):
+/// `4·a·atan(a)` with `a = half/√(half² + height²)`.
+#[must_use]
+pub fn panel_irradiance(half: f64, height: f64) -> f64 {
+    let a = half / half.hypot(height);
+    4.0 * a * a.atan()
+}
+
+fn plane(id: &'static str, title: &'static str, albedo: impl Into<Color>) -> Scene {
+    let mut scene = Scene::empty(id, title, camera(Vec3::Y * 4.0, Vec3::ZERO, Vec3::Z));
+    let ground = scene.add_material(Material::diffuse("ground", albedo));
+    let side = 100.0;
+    scene
+        .add_mesh(quad(Vec3::new(-side, 0.0, -side), Vec3::Z * (2.0 * side), Vec3::X * (2.0 * side)), ground);
+    scene
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn panel_irradiance_equals_the_integral_over_the_panel() {
+        let (half, height, n) = (0.7, 1.3, 400);
+        let step = 2.0 * half / f64::from(n);
+        let mut sum = 0.0;
+        for i in 0..n {
+            for j in 0..n {
+                let x = (f64::from(i) + 0.5) * step - half;
+                let y = (f64::from(j) + 0.5) * step - half;
+                let d2 = x * x + y * y + height * height;
+                // cos/d at both ends, over the squared distance.
+                sum += height * height / (d2 * d2) * step * step;
+            }
+        }
+        // The midpoint rule's error is of order step².
+        assert!((sum - panel_irradiance(half, height)).abs() < step * step);
+    }
+
+    #[test]
+    fn all_pass_the_check() {
+        let white = Vec3::splat(0.8);
+        for scene in [
+            furnace(0.5),
+            sphere_under_sky(Scattering::Glass { ior: 1.5 }),
+            plane_under_sun(white, Vec3::ONE, 30.0),
+            plane_under_panel(white, 0.5, 1.0),
+        ] {
+            assert_eq!(scene.check(), Ok(()));
+        }
+    }
+}

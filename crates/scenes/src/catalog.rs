@@ -1,0 +1,80 @@
+use thiserror::Error;
+
+use crate::Scene;
+use crate::builtin::cornell;
+
+/// A scene that can be built by name.
+#[derive(Debug, Clone, Copy)]
+pub struct SceneEntry {
+    /// Stable name.
+    pub id: &'static str,
+    /// What it shows and which figure it stands in for.
+    pub about: &'static str,
+    /// Builds it; deterministic.
+    pub build: fn() -> Scene,
+}
+
+const SCENES: &[SceneEntry] = &[
+    SceneEntry {
+        id: cornell::ID,
+        about: "Cornell box with a mirror ball and a glass ball: the usual test of interreflection, with a caustic",
+        build: cornell::cornell,
+    },
+    SceneEntry {
+        id: cornell::DIFFUSE_ID,
+        about: "Cornell box with its two diffuse blocks, measured geometry: the yardstick for rendering speed",
+        build: cornell::cornell_diffuse,
+    },
+];
+
+/// All built-in scenes in display order.
+#[must_use]
+pub fn builtin() -> &'static [SceneEntry] {
+    SCENES
+}
+
+/// No built-in scene has this id.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("there is no scene `{id}`; the nearest names are {}", nearest.join(", "))]
+#[non_exhaustive]
+pub struct UnknownScene {
+    /// What was asked for.
+    pub id: String,
+    /// Up to three existing ids, most similar first.
+    pub nearest: Vec<&'static str>,
+}
+
+/// The built-in scene called `id`.
+///
+/// # Errors
+///
+/// [`UnknownScene`] with the nearest names if there is none.
+pub fn find(id: &str) -> Result<&'static SceneEntry, UnknownScene> {
+    SCENES.iter().find(|entry| entry.id == id).ok_or_else(|| {
+        let mut nearest: Vec<_> = SCENES.iter().map(|entry| entry.id).collect();
+        nearest.sort_by(|a, b| strsim::jaro_winkler(b, id).total_cmp(&strsim::jaro_winkler(a, id)));
+        nearest.truncate(3);
+        UnknownScene { id: id.to_owned(), nearest }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_entry_builds_the_scene_of_its_id() {
+        for entry in builtin() {
+            assert_eq!((entry.build)().id, entry.id);
+            assert_eq!(find(entry.id).map(|found| found.id), Ok(entry.id));
+        }
+    }
+
+    #[test]
+    fn misspelt_name_is_answered_with_the_nearest() {
+        let error = find("cornel-difuse").expect_err("no such scene");
+        assert_eq!(error.nearest[0], "cornell-diffuse");
+        assert!(error.to_string().contains("`cornel-difuse`"), "{error}");
+        assert!(!find("").expect_err("no such scene").nearest.is_empty());
+    }
+}
