@@ -1,1 +1,14 @@
-//! Fast shared filter kernels, each beside a slow obvious twin
+//! Fast filter kernels, each beside a slow and obvious twin.
+//!
+//! A kernel here works on plain slices of planar `f32` (one slice per channel, rows of `width` values without
+//! padding) and knows nothing of frames or denoisers. Each has three forms of the same mathematics: an `f64` twin
+//! written straight from the formula, which is the oracle of the tests; the same loop in `f32`, the baseline of
+//! every speed ratio; and the fast form, whose result has the same bits for every instruction set and any
+//! number of threads.
+//!
+//! This is the only crate of the workspace that may use `unsafe`.
+
+pub mod flash_filter;
+mod level;
+
+pub use level::Level;

@@ -1,0 +1,177 @@
+//! Parameters and input planes of the flash filter, and the check that both make sense.
+
+use super::FlashFilterError;
+
+/// Largest window radius in pixels.
+pub const MAX_WINDOW_RADIUS: usize = 32;
+/// Largest patch radius in pixels.
+pub const MAX_PATCH_RADIUS: usize = 3;
+/// Largest magnitude of a source value. Differences of two such values stay far from overflow.
+pub const MAX_SOURCE: f32 = 1e30;
+/// Most pixels that an image may have: indices and padded tile coordinates stay far from overflow.
+pub const MAX_PIXELS: usize = 1 << 31;
+
+/// Size and shape parameters of one filter pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlashParams {
+    /// Image width in pixels, at least 1.
+    pub width: usize,
+    /// Image height in pixels, at least 1.
+    pub height: usize,
+    /// Window radius r in pixels: the window has (2r+1)² pixels and is clipped at the image border.
+    /// 0 to [`MAX_WINDOW_RADIUS`]; moon2013flash uses 3, then 15.
+    pub window_radius: usize,
+    /// Standard deviation σ_s of the spatial Gaussian in pixels, greater than 0; infinity switches it off.
+    pub spatial_sigma: f32,
+    /// Weights of the patch over which guide differences are averaged.
+    pub patch: PatchWeights,
+}
+
+/// Separable, symmetric, normalised patch weights: G(i, j) = g(|i|)·g(|j|), Σ G = 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PatchWeights {
+    radius: usize,
+    /// g(0), g(1), …, zero beyond the radius; g(0) + 2·Σ g(i≥1) = 1 and g(0) ≥ g(i).
+    taps: [f64; MAX_PATCH_RADIUS + 1],
+}
+
+impl PatchWeights {
+    /// Gaussian weights of standard deviation `std` pixels on (2·`radius`+1)² pixels. An infinite `std` gives equal
+    /// weights.
+    ///
+    /// # Errors
+    /// [`FlashFilterError::PatchRadius`] or [`FlashFilterError::Sigma`].
+    ///
+    /// ```
+    /// use noisefloor_kernels::flash_filter::PatchWeights;
+    /// let patch = PatchWeights::gaussian(2, 1.25)?;
+    /// let sum: f64 = (-2..=2).map(|i: i32| patch.tap(i.unsigned_abs() as usize)).sum();
+    /// assert!((sum - 1.0).abs() < 1e-15);
+    /// # Ok::<(), noisefloor_kernels::flash_filter::FlashFilterError>(())
+    /// ```
+    pub fn gaussian(radius: usize, std: f32) -> Result<Self, FlashFilterError> {
+        if radius > MAX_PATCH_RADIUS {
+            return Err(FlashFilterError::PatchRadius { value: radius, max: MAX_PATCH_RADIUS });
+        }
+        if std.is_nan() || std <= 0.0 {
+            return Err(FlashFilterError::Sigma { parameter: "patch standard deviation", value: std });
+        }
+        let two_var = 2.0 * f64::from(std) * f64::from(std);
+        let mut taps = [0.0; MAX_PATCH_RADIUS + 1];
+        for (i, tap) in taps.iter_mut().enumerate().take(radius + 1) {
+            *tap = (-((i * i) as f64) / two_var).exp();
+        }
+        // At least the centre's exp(0) = 1, so the division is safe.
+        let sum = taps[0] + 2.0 * taps[1..].iter().sum::<f64>();
+        Ok(Self { radius, taps: taps.map(|tap| tap / sum) })
+    }
+
+    /// Equal weights on (2·`radius`+1)² pixels.
+    ///
+    /// # Errors
+    /// [`FlashFilterError::PatchRadius`].
+    pub fn uniform(radius: usize) -> Result<Self, FlashFilterError> {
+        Self::gaussian(radius, f32::INFINITY)
+    }
+
+    /// Patch radius f in pixels.
+    pub fn radius(&self) -> usize {
+        self.radius
+    }
+
+    /// Weight g(`distance`) of one axis; 0 beyond the radius.
+    pub fn tap(&self, distance: usize) -> f64 {
+        self.taps.get(distance).copied().unwrap_or(0.0)
+    }
+}
+
+/// Which neighbours q may contribute to pixel p. A pixel always belongs to its own set.
+///
+/// The half-widths are confidence-interval half-widths t·s_p/√n_p at the *centre* pixel p: at least 0, and
+/// infinity lets every neighbour pass. A neighbour passes a test on the values v if
+/// |v_q − v_p| ≤ half-width + 4·eps·max(|v_p|, |v_q|), see [`super::half_width`] for the rounding allowance.
+#[derive(Clone, Copy, Debug)]
+pub enum Membership<'a> {
+    /// One set for all channels: a neighbour must pass the test in each of the three channels.
+    Joint([&'a [f32]; 3]),
+    /// A set of its own for each channel, hence a weight sum for each.
+    PerChannel([&'a [f32]; 3]),
+    /// One set for all channels, tested on Rec. 709 luminance against a half-width of luminance.
+    Luminance(&'a [f32]),
+    /// No test: the whole window.
+    Off,
+}
+
+/// The image that range weights are computed from.
+#[derive(Clone, Copy, Debug)]
+pub struct Guide<'a> {
+    /// Three planes of finite values. Squared differences that overflow `f32` give weight 0.
+    pub planes: [&'a [f32]; 3],
+    /// 1/(2σ_r²) at each centre pixel, finite and at least 0.
+    pub inv_two_sigma_r2: &'a [f32],
+}
+
+/// Input planes, each of width·height values in rows.
+#[derive(Clone, Copy, Debug)]
+pub struct FlashInputs<'a> {
+    /// What is tested and averaged: finite, magnitude at most [`MAX_SOURCE`].
+    pub source: [&'a [f32]; 3],
+    /// The membership test with its half-widths.
+    pub membership: Membership<'a>,
+    /// The guide; without one every range weight is 1.
+    pub guide: Option<Guide<'a>>,
+}
+
+impl FlashParams {
+    /// Checks the parameters and every input value.
+    ///
+    /// # Errors
+    /// The first thing that is out of range; see [`FlashFilterError`].
+    pub fn check(&self, inputs: &FlashInputs<'_>) -> Result<(), FlashFilterError> {
+        let (width, height) = (self.width, self.height);
+        let pixels = width.checked_mul(height).filter(|n| (1..=MAX_PIXELS).contains(n));
+        let Some(pixels) = pixels else {
+            return Err(FlashFilterError::ImageSize { width, height, max: MAX_PIXELS });
+        };
+        if self.window_radius > MAX_WINDOW_RADIUS {
+            return Err(FlashFilterError::WindowRadius { value: self.window_radius, max: MAX_WINDOW_RADIUS });
+        }
+        if self.spatial_sigma.is_nan() || self.spatial_sigma <= 0.0 {
+            return Err(FlashFilterError::Sigma { parameter: "spatial sigma", value: self.spatial_sigma });
+        }
+        let check = |plane: &'static str, values: &[f32], allowed: &'static str, ok: fn(f32) -> bool| {
+            if values.len() != pixels {
+                return Err(FlashFilterError::PlaneLength { plane, expected: pixels, actual: values.len() });
+            }
+            // Whole chunks without an early exit, so that the usual case runs at the speed of memory.
+            let bad = values.chunks(4096).position(|chunk| !chunk.iter().fold(true, |all, &v| all & ok(v)));
+            let Some(chunk) = bad else { return Ok(()) };
+            let start = chunk * 4096;
+            let index = start + values[start..].iter().position(|&v| !ok(v)).unwrap_or(0);
+            let (x, y) = (index % width, index / width);
+            Err(FlashFilterError::Value { plane, x, y, value: values[index], allowed })
+        };
+        for (name, plane) in ["source 0", "source 1", "source 2"].into_iter().zip(inputs.source) {
+            check(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_SOURCE)?;
+        }
+        let half_widths = |name, plane| check(name, plane, "0 to infinity", |v| v >= 0.0);
+        match inputs.membership {
+            Membership::Joint(planes) | Membership::PerChannel(planes) => {
+                for (name, plane) in ["half-width 0", "half-width 1", "half-width 2"].into_iter().zip(planes)
+                {
+                    half_widths(name, plane)?;
+                }
+            }
+            Membership::Luminance(plane) => half_widths("half-width of luminance", plane)?,
+            Membership::Off => {}
+        }
+        if let Some(guide) = inputs.guide {
+            for (name, plane) in ["guide 0", "guide 1", "guide 2"].into_iter().zip(guide.planes) {
+                check(name, plane, "any finite value", f32::is_finite)?;
+            }
+            let range = |v: f32| (0.0..=f32::MAX).contains(&v);
+            check("inv_two_sigma_r2", guide.inv_two_sigma_r2, "0 or any positive finite value", range)?;
+        }
+        Ok(())
+    }
+}
