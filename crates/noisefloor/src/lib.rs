@@ -1,1 +1,79 @@
-//! Evaluation workbench for Monte Carlo denoisers: the facade and the command
+//! Evaluation workbench for Monte Carlo denoisers: everything a user's own program needs, under one name.
+//!
+//! # Bring a denoiser
+//!
+//! Write your method in a crate of your own: implement [`Denoiser`], describe its parameters in an [`Entry`], and hand
+//! that to [`main_with`]. The program that results is the whole `noisefloor` command with your method in every list, study
+//! and report:
+//!
+//! ```no_run
+//! use noisefloor::{Citation, DenoiseError, Denoiser, Entry, Input, MethodCard, Output, build_with};
+//! use serde::{Deserialize, Serialize};
+//!
+//! #[derive(Debug, Clone, Default, Serialize, Deserialize)]
+//! #[serde(deny_unknown_fields)]
+//! struct Params {}
+//!
+//! struct Mine;
+//!
+//! impl Denoiser for Mine {
+//!     fn card(&self) -> MethodCard {
+//!         MethodCard::new("mine", "My method", Citation { key: "me2026", text: "unpublished" })
+//!     }
+//!     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+//!         input.check(&self.card())?;
+//!         Ok(Output::from_image(input.target.color.mean.clone()))
+//!     }
+//! }
+//!
+//! const MINE: Entry = Entry {
+//!     id: "mine",
+//!     summary: "does nothing yet",
+//!     params: &[],
+//!     defaults: || serde_json::json!({}),
+//!     build: |overrides| build_with("mine", &[], overrides, |_: Params| Ok(Mine)),
+//! };
+//!
+//! fn main() -> std::process::ExitCode {
+//!     noisefloor::main_with(&[MINE])
+//! }
+//! ```
+//!
+//! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims.
+
+pub use noisefloor_cli::main_with;
+pub use noisefloor_denoiser::{
+    Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry, Guarded, Input, Method,
+    MethodCard, Need, Output, ParamDoc, Registry, StageSeconds, StageTimer, build_with, params_from,
+};
+pub use noisefloor_frame::{
+    Camera, Counts, Estimate, FeatureId, Flash, Frame, FrameError, Hygiene, Image, PixelFilter, Provenance,
+    Reference, Samples, Sampling, Variance, luminance,
+};
+
+/// Reading and writing frames as OpenEXR.
+pub use noisefloor_io as io;
+
+/// Study files, runs and their analysis.
+pub use noisefloor_harness as harness;
+
+/// Image metrics.
+pub use noisefloor_metrics as metrics;
+
+/// The built-in methods.
+pub use noisefloor_registry as registry;
+
+/// The path tracer.
+pub use noisefloor_render as render;
+
+/// Plots and pages.
+pub use noisefloor_report as report;
+
+/// The built-in scenes.
+pub use noisefloor_scenes as scenes;
+
+/// Intervals, coverage, bounds, slopes.
+pub use noisefloor_stats as stats;
+
+/// Frames with known truth.
+pub use noisefloor_synthetic as synthetic;

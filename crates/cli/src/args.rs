@@ -1,0 +1,267 @@
+//! Arguments of every verb, with examples in each help text.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Parser, Subcommand};
+
+/// Evaluation workbench for Monte Carlo denoisers.
+#[derive(Debug, Parser)]
+#[command(
+    name = "noisefloor",
+    version,
+    about = "Evaluation workbench for Monte Carlo denoisers",
+    long_about = "Renders or imports noisy frames with their statistics, runs denoisers on them, and reports error \
+        against samples, error against seconds, coverage of confidence intervals, and whether error bounds held.\n\n\
+        Without a verb it runs the built-in study `quick`.",
+    after_help = "Examples:\n  noisefloor                          run the study `quick` (a few minutes)\n  \
+        noisefloor run vfi-fig09            reproduce a figure\n  \
+        noisefloor run study.toml           run your own study\n  \
+        noisefloor methods                  what can be compared"
+)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Option<Verb>,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Run a study and write its report; continues where an earlier run stopped
+    Run(Run),
+    /// Render one noisy frame with its statistics
+    Render(Render),
+    /// Denoise one frame
+    Denoise(Denoise),
+    /// Measure an image against a reference
+    Compare(Compare),
+    /// Make the analysis and the report again from kept records and images, running nothing
+    Report(Report),
+    /// List the denoising methods with their parameters
+    Methods(List),
+    /// List the built-in scenes with what they model
+    Scenes(List),
+}
+
+impl Default for Verb {
+    fn default() -> Self {
+        Self::Run(Run::default())
+    }
+}
+
+/// `noisefloor run`.
+#[derive(Debug, Default, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor run quick\n  noisefloor run quick --size 320x240 --out /tmp/quick\n  \
+    noisefloor run vfi-table1 --threads 8\n  noisefloor run my-study.toml --cache /big/cache\n  \
+    noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr")]
+pub struct Run {
+    /// Name of a built-in study, a study file, or a folder of EXR frames with a reference [default: quick]
+    pub study: Option<String>,
+    /// Folder for records, images and the report [default: noisefloor-results/STUDY]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Size of rendered and synthetic scenes, in pixels
+    #[arg(long, value_name = "WxH")]
+    pub size: Option<Size>,
+    /// Folder for rendered frames, shared by all studies [default: the user's cache folder]
+    #[arg(long, value_name = "DIR")]
+    pub cache: Option<PathBuf>,
+    /// Threads for rendering and denoising [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// Samples per pixel of frames that do not say it themselves (folders only)
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: Option<u32>,
+    /// No progress and no table: errors only
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `noisefloor render`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor render cornell --spp 64 --seed 1 --size 640x480 -o cornell.exr\n  \
+    noisefloor render toaster --spp 16 --record albedo,normal,flash --filter point -o toaster.exr\n  \
+    noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference")]
+pub struct Render {
+    /// Scene id; see `noisefloor scenes`
+    pub scene: String,
+    /// Samples per pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: u32,
+    /// Random seed
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub seed: u64,
+    /// Image size in pixels
+    #[arg(long, value_name = "WxH", default_value = "320x240")]
+    pub size: Size,
+    /// OpenEXR file to write
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Quantities to record beside the colour, by comma; `none` for the colour alone [default: everything that
+    /// registered methods can use and the scene can give]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
+    pub record: Option<Vec<String>>,
+    /// Longest path, in edges from the eye to a light: 2 is direct light
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub depth: u32,
+    /// Film filter: `box` over the pixel, or `point` through its centre
+    #[arg(long, default_value = "box", value_parser = ["box", "point"])]
+    pub filter: String,
+    /// Render a reference instead: this many independently randomised low-discrepancy parts
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
+    pub parts: Option<u32>,
+    /// Threads [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// No progress
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// `noisefloor denoise`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor denoise frame.exr --method virtual-flash -o out.exr\n  \
+    noisefloor denoise frame.exr --method virtual-flash --set guide=color --set steps=1 -o out.exr --json\n  \
+    noisefloor denoise frame.exr --method \"guarded(geometric-corrected)\" -o out.exr\n  \
+    noisefloor denoise frame.exr --method virtual-flash --diagnostics --probe 120,80 -o out.exr")]
+pub struct Denoise {
+    /// Noisy frame
+    pub frame: PathBuf,
+    /// Method id; see `noisefloor methods`
+    #[arg(long, short, value_name = "ID")]
+    pub method: String,
+    /// Override a parameter; repeatable
+    #[arg(long = "set", value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// OpenEXR file to write
+    #[arg(short, long, value_name = "FILE")]
+    pub output: PathBuf,
+    /// Also write the method's diagnostic images, as OUTPUT-STEM.NAME.exr
+    #[arg(long)]
+    pub diagnostics: bool,
+    /// Pixel to look at in diagnostics [default: the middle]
+    #[arg(long, value_name = "X,Y", requires = "diagnostics")]
+    pub probe: Option<Pixel>,
+    /// Samples per pixel of a frame that does not say it itself
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: Option<u32>,
+    /// Threads [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `noisefloor compare`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor compare out.exr reference.exr\n  \
+    noisefloor compare out.exr reference.exr --json")]
+pub struct Compare {
+    /// Image or frame under test
+    pub test: PathBuf,
+    /// Reference; its own noise is taken out where it carries halves or a variance
+    pub reference: PathBuf,
+    /// Print one JSON object instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `noisefloor report`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor report noisefloor-results/quick\n  \
+    noisefloor report reports/vfi-fig09 --recompute")]
+pub struct Report {
+    /// Folder of a study that was run
+    pub dir: PathBuf,
+    /// Compute the metrics again from the kept images instead of taking them from the records
+    #[arg(long)]
+    pub recompute: bool,
+    /// Largest size of the images embedded in the page, in MB
+    #[arg(long, value_name = "MB", default_value_t = 10.0)]
+    pub viewer_budget: f64,
+}
+
+/// `noisefloor methods` and `noisefloor scenes`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json\n  noisefloor scenes --json")]
+pub struct List {
+    /// Print a JSON array of objects with `id`
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `WxH` in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Size {
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+impl FromStr for Size {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || format!("`{text}` is not a size such as 640x480, each side from 1 to 16384");
+        let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+        let side = |s: &str| s.parse::<usize>().ok().filter(|v| (1..=16384).contains(v));
+        match (side(width), side(height)) {
+            (Some(width), Some(height)) => Ok(Self { width, height }),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+/// `X,Y` in pixels from the upper left corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Pixel {
+    /// Column.
+    pub x: usize,
+    /// Row.
+    pub y: usize,
+}
+
+impl FromStr for Pixel {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let parsed = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+        match parsed {
+            Some((Ok(x), Ok(y))) => Ok(Self { x, y }),
+            _ => Err(format!("`{text}` is not a pixel such as 120,80")),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn every_verb_shows_examples() {
+        for verb in Args::command().get_subcommands() {
+            let help = verb.get_after_help().map(ToString::to_string).unwrap_or_default();
+            assert!(help.contains("noisefloor "), "{} has no example", verb.get_name());
+        }
+    }
+
+    #[test]
+    fn sizes_and_pixels_are_parsed_or_refused() {
+        assert_eq!("640x480".parse(), Ok(Size { width: 640, height: 480 }));
+        for bad in ["640", "0x5", "640x", "ax3", "99999x2", "-1x2"] {
+            assert!(bad.parse::<Size>().unwrap_err().contains(bad));
+        }
+        assert_eq!("3,4".parse(), Ok(Pixel { x: 3, y: 4 }));
+        assert!("3;4".parse::<Pixel>().is_err());
+    }
+}
