@@ -16,7 +16,7 @@ pub mod hash;
 mod material;
 mod scene;
 pub mod shape;
-mod texture;
+pub mod texture;
 
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};
 pub use check::SceneError;

@@ -5,8 +5,18 @@
 //! as large on a wide wall as on a narrow one.
 
 mod flat;
+mod plant;
+mod round;
+mod surface;
+mod sweep;
+#[cfg(test)]
+mod tests;
 
 pub use flat::{cuboid, polygon, quad};
+pub use plant::LeafShape;
+pub use round::{arc, cylinder, lathe, rounded_box};
+pub use surface::{Vertex, surface};
+pub use sweep::{fan, slab, tube};
 
 use glam::{Affine3A, Vec3, Vec3A};
 

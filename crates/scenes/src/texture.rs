@@ -1,7 +1,24 @@
+//! Procedural textures.
+//!
+//! They sit in the innermost loop of path tracing, so each costs a handful of integer hashes and no transcendental
+//! function. Lattice noise is hashed from integer coordinates: every machine sees the same texture.
+
+mod masonry;
+mod noise;
+mod organic;
+mod wood;
+
+pub use masonry::{Bricks, Tiles};
+pub use noise::{Clouds, Streaks, fractal, value_noise};
+pub use organic::{Bread, Leaf};
+pub use wood::Wood;
+
 use glam::{Vec2, Vec3};
 
-/// A procedural texture: linear RGB in [0, 1] from texture coordinates. Lattice noise is hashed from integer
-/// coordinates, so every machine sees the same texture.
+use noise::split;
+
+/// A procedural texture: linear RGB in [0, 1] from texture coordinates, as long as its colours are in [0, 1].
+/// Lengths are in the unit of the texture coordinates, which is the scene's unit on most shapes.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Texture {
     /// Two colours in squares.
@@ -13,17 +30,68 @@ pub enum Texture {
         /// Odd squares.
         b: Vec3,
     },
+    /// Stripes across v.
+    Stripes {
+        /// Distance from one stripe to the next.
+        period: f32,
+        /// Share of the period that the stripe takes, in [0, 1].
+        share: f32,
+        /// Colour between stripes.
+        base: Vec3,
+        /// Colour of stripes.
+        stripe: Vec3,
+    },
+    /// Brick wall.
+    Bricks(Bricks),
+    /// Tiles with grout.
+    Tiles(Tiles),
+    /// Planks of wood.
+    Wood(Wood),
+    /// Two colours mixed by fractal noise.
+    Clouds(Clouds),
+    /// Fine lines along u.
+    Streaks(Streaks),
+    /// Leaves with veins.
+    Leaf(Leaf),
+    /// A slice of toast.
+    Bread(Bread),
 }
 
 impl Texture {
-    /// Colour at `uv`.
+    /// Colour at `uv`, which must be finite.
+    #[inline]
     #[must_use]
     pub fn eval(&self, uv: Vec2) -> Vec3 {
         match self {
             Self::Checker { frequency, a, b } => {
-                let cell = (uv * *frequency).floor();
-                if (cell.x + cell.y).rem_euclid(2.0) < 1.0 { *a } else { *b }
+                let (x, _) = split(uv.x * frequency.x);
+                let (y, _) = split(uv.y * frequency.y);
+                if (x ^ y) & 1 == 0 { *a } else { *b }
             }
+            Self::Stripes { period, share, base, stripe } => {
+                if split(uv.y / period).1 < *share {
+                    *stripe
+                } else {
+                    *base
+                }
+            }
+            Self::Bricks(t) => t.eval(uv),
+            Self::Tiles(t) => t.eval(uv),
+            Self::Wood(t) => t.eval(uv),
+            Self::Clouds(t) => t.eval(uv),
+            Self::Streaks(t) => t.eval(uv),
+            Self::Leaf(t) => t.eval(uv),
+            Self::Bread(t) => t.eval(uv),
         }
     }
 }
+
+/// 0 below `low`, 1 above `high`, smooth between; `high > low`.
+#[inline]
+fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests;
