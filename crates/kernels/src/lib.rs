@@ -10,5 +10,7 @@
 
 pub mod flash_filter;
 mod level;
+mod simd;
+mod tiles;
 
 pub use level::Level;

@@ -17,9 +17,14 @@
 
 mod diagnostics;
 mod error;
+mod hot;
+mod layout;
 mod members;
 pub mod naive;
 mod params;
+#[cfg(test)]
+mod tests;
+mod tiled;
 
 pub use diagnostics::{HomogeneousWindow, homogeneous_counts, homogeneous_window};
 pub use error::FlashFilterError;
@@ -84,8 +89,6 @@ pub fn filter_into(
             return Err(FlashFilterError::PlaneLength { plane, expected, actual: values.len() });
         }
     }
-    for (values, filtered) in out.into_iter().zip(naive::filter_f32(params, inputs)?) {
-        values.copy_from_slice(&filtered);
-    }
+    tiled::filter(params, inputs, level, tiled::TILE, out);
     Ok(())
 }
