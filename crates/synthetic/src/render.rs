@@ -1,0 +1,104 @@
+//! Draws the samples of a frame.
+
+use noisefloor_frame::{
+    BLOCK_SAMPLES, BlockTree, Camera, Estimate, Frame, Image, Moments, PixelFilter, Provenance, Samples,
+    Sampling, Variance,
+};
+use rayon::prelude::*;
+
+use crate::random::Stream;
+use crate::{SyntheticScene, features};
+
+/// Statistics of one pixel.
+pub(crate) struct Sampled<const C: usize> {
+    pub(crate) mean: [f64; C],
+    /// Of the mean; ignored below 2 samples, like the halves.
+    pub(crate) variance: [f64; C],
+    pub(crate) halves: [[f64; C]; 2],
+}
+
+/// Purpose of the colour's random numbers; the features have others.
+const COLOR: u64 = 0;
+
+impl SyntheticScene {
+    /// Draws `spp` independent samples per pixel (at least one) and keeps their statistics: mean, variance of the mean, halves by
+    /// parity of the sample index; variance and halves only from 2 samples on. The guide images come from other random
+    /// numbers, independent of the colour's.
+    ///
+    /// The bits depend on scene, `spp` and `seed` only, not on the number of threads.
+    #[must_use]
+    pub fn render(&self, spp: u32, seed: u64) -> Frame {
+        let spp = spp.max(1);
+        let truth = self.image.image(self.width, self.height);
+        let plane = truth.pixels();
+        let color = estimate(self.width, self.height, spp, |pixel| {
+            let mean = [0, 1, 2].map(|c| f64::from(truth.data()[c * plane + pixel]));
+            self.sample_pixel(mean, spp, Stream::new(seed, COLOR, pixel))
+        });
+        let mut frame = Frame::from_color(color, Samples::uniform(spp), Sampling::Independent);
+        features::add(self, &mut frame, &truth, spp, seed);
+        frame.provenance = self.provenance(seed);
+        frame
+    }
+
+    fn sample_pixel(&self, mean: [f64; 3], spp: u32, mut stream: Stream) -> Sampled<3> {
+        let mut tree = BlockTree::default();
+        let mut halves = [Moments::<3>::default(); 2];
+        let mut left = spp;
+        while left > 0 {
+            let mut leaf = Moments::default();
+            for index in 0..left.min(BLOCK_SAMPLES) {
+                let sample = self.law.draw(mean, self.common_channels, &mut stream);
+                leaf.push(sample);
+                halves[(index % 2) as usize].push(sample);
+            }
+            tree.push(leaf);
+            left = left.saturating_sub(BLOCK_SAMPLES);
+        }
+        let total = tree.total();
+        Sampled {
+            mean: total.mean(),
+            variance: total.mean_variance().unwrap_or_default(),
+            halves: halves.map(|half| half.mean()),
+        }
+    }
+
+    fn provenance(&self, seed: u64) -> Provenance {
+        Provenance {
+            scene: Some("synthetic".into()),
+            renderer: Some(concat!("noisefloor-synthetic ", env!("CARGO_PKG_VERSION")).into()),
+            integrator: Some(format!("law {}", self.law.name())),
+            sampler: Some("independent".into()),
+            seed: Some(seed),
+            filter: Some(PixelFilter::Point),
+            camera: Some(Camera {
+                camera_to_world: [[1., 0., 0., 0.], [0., 1., 0., 0.], [0., 0., 1., 0.], [0., 0., 0., 1.]],
+                vertical_fov_degrees: 45.0,
+            }),
+            ..Provenance::default()
+        }
+    }
+}
+
+/// An estimate from the statistics of each pixel, rows in parallel.
+pub(crate) fn estimate<const C: usize>(
+    width: usize,
+    height: usize,
+    spp: u32,
+    pixel: impl Fn(usize) -> Sampled<C> + Sync,
+) -> Estimate {
+    let rows: Vec<Vec<Sampled<C>>> =
+        (0..height).into_par_iter().map(|y| (0..width).map(|x| pixel(y * width + x)).collect()).collect();
+    let gather = |value: &dyn Fn(&Sampled<C>, usize) -> f64| {
+        Image::from_fn(width, height, C, |c, x, y| value(&rows[y][x], c) as f32)
+    };
+    let mean = gather(&|s, c| s.mean[c]);
+    if spp < 2 {
+        return Estimate::from_mean(mean);
+    }
+    Estimate {
+        mean,
+        variance: Some(Variance::of_mean(gather(&|s, c| s.variance[c]))),
+        halves: Some([0, 1].map(|half| gather(&|s, c| s.halves[half][c]))),
+    }
+}
