@@ -1,1 +1,33 @@
-//! OpenEXR files to frames and back, including other renderers' conventions
+//! Frames, references and images to and from multi-layer OpenEXR.
+//!
+//! One single-part file per frame, 32-bit floats, ZIP-compressed, with layers in the channel names so that other
+//! programs show them: `R G B`, `variance.R…` (variance *of the mean*), `halfA.R…`, `halfB.R…`, then per feature
+//! `albedo.R…`, `albedo.variance.R…`, `albedo.halfA.R…`, `albedo.halfB.R…` and likewise `normal.X…`, `depth.Z`,
+//! `visibility.Y`, `caustics.Y`, `brdf.R…`, `direct.R…`, `motion.X/Y`, `material.Y`; the virtual flash as
+//! `flashBase.R…`, `flashLight.R…` and `flashCov.R…`, or ready-made as `flash.R…`; sample counts that differ from pixel
+//! to pixel as `samples.Y` and `samples.halfA.Y` (unsigned int); the parts of a reference as `part0.R…`.
+//!
+//! Header attributes: `scene`, `renderer`, `integrator`, `sampler` (text), `seed` (int, or text above 2³¹−1), `spp` (int, or
+//! the mean as double), `sppHalfA` where it is not ⌈spp/2⌉, `sampling` (`independent` or `low-discrepancy`), `filter` (`box`
+//! or `point`), `cameraToWorld` (m44f: row by row for column vectors, last row 0 0 0 1), `verticalFov` (degrees),
+//! `renderSeconds`, `renderThreads`, and anything else as text under its own name.
+//!
+//! Numbers round-trip bit for bit. Writes are atomic. Files may come from strangers: whatever is in them, reading
+//! ends in a frame or in an [`IoError`] that names file, layer and channel.
+
+mod atomic;
+mod attributes;
+mod decode;
+mod encode;
+mod error;
+mod layers;
+mod names;
+mod read;
+mod write;
+
+pub use atomic::write_atomically;
+pub use error::IoError;
+pub use read::{
+    FileInfo, ReadOptions, read_attributes, read_color, read_frame, read_image, read_info, read_reference,
+};
+pub use write::{write_frame, write_image, write_reference};
