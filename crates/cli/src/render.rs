@@ -1,0 +1,97 @@
+//! `noisefloor render`.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+
+use anyhow::bail;
+use noisefloor_denoiser::Need;
+use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
+use noisefloor_io::{write_frame, write_reference};
+use noisefloor_render::{Keep, Prepared, Quantity, Record, RenderRequest, available};
+use serde_json::Map;
+
+use crate::args::Render;
+use crate::context::{Context, use_threads};
+use crate::progress::bar;
+
+pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
+    use_threads(args.threads)?;
+    let scene = (noisefloor_scenes::find(&args.scene)?.build)();
+    let can = available(&scene);
+    let record = match &args.record {
+        None => useful(context, &can),
+        Some(names) => named(names, &can)?,
+    };
+    let prepared = Prepared::new(&scene)?;
+    let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
+    request.seed = args.seed;
+    request.depth = args.depth;
+    request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
+    request.record = record;
+
+    let pixels = (args.size.width * args.size.height) as u64;
+    let progress = bar(pixels * u64::from(args.parts.unwrap_or(1)), args.quiet);
+    progress.set_message(format!("{} at {} samples per pixel", args.scene, args.spp));
+    let advance = |finished: usize| {
+        progress.inc(finished as u64);
+        ControlFlow::Continue(())
+    };
+    let seconds = match args.parts {
+        Some(parts) => {
+            request.sampling = Sampling::LowDiscrepancy;
+            let reference = noisefloor_render::render_reference(&request, parts, &advance)?;
+            write_reference(&args.output, &reference)?;
+            reference.frame.provenance.render_seconds
+        }
+        None => {
+            let frame = noisefloor_render::render(&request, &advance)?;
+            write_frame(&args.output, &frame)?;
+            frame.provenance.render_seconds
+        }
+    };
+    progress.finish_and_clear();
+    if !args.quiet {
+        let rate = seconds.filter(|s| *s > 0.0).map_or(String::new(), |s| {
+            format!(" in {s:.1} s, {:.2} million samples/s", (pixels * u64::from(args.spp)) as f64 / s / 1e6)
+        });
+        println!("wrote {}{rate}", args.output.display());
+    }
+    Ok(())
+}
+
+/// Everything that some registered method needs or uses, as far as the scene can give it.
+fn useful(context: &Context, can: &[Quantity]) -> Record {
+    let mut wanted = BTreeSet::new();
+    for entry in context.registry.entries() {
+        if let Ok(method) = context.registry.build(entry.id, &Map::new()) {
+            let card = method.denoiser.card();
+            wanted.extend(card.needs.iter().chain(&card.uses).filter_map(quantity));
+        }
+    }
+    // Cheap, and asked for by nearly every published method.
+    wanted.extend([Quantity::Albedo, Quantity::Normal, Quantity::Depth, Quantity::Visibility]);
+    Record::Exactly(can.iter().filter(|q| wanted.contains(q)).map(|q| (*q, Keep::ALL)).collect())
+}
+
+fn quantity(need: &Need) -> Option<Quantity> {
+    match need {
+        Need::Flash | Need::FlashVariance => Some(Quantity::Flash),
+        Need::Feature(id) | Need::FeatureVariance(id) => match id {
+            FeatureId::Extra(_) => None,
+            known => Quantity::ALL.into_iter().find(|q| q.feature().as_ref() == Some(known)),
+        },
+        _ => None,
+    }
+}
+
+fn named(names: &[String], can: &[Quantity]) -> anyhow::Result<Record> {
+    let list = || can.iter().map(|q| q.name()).collect::<Vec<_>>().join(", ");
+    let mut chosen = BTreeMap::new();
+    for name in names.iter().map(|n| n.trim()).filter(|n| !matches!(*n, "none" | "color" | "colour")) {
+        match Quantity::from_name(name).filter(|q| can.contains(q)) {
+            Some(quantity) => drop(chosen.insert(quantity, Keep::ALL)),
+            None => bail!("--record {name}: this scene can give {}, and always the colour", list()),
+        }
+    }
+    Ok(Record::Exactly(chosen))
+}
