@@ -1,1 +1,24 @@
-//! The simple geometric denoiser of a hobby path tracer, as written and corrected
+#![doc = include_str!("../README.md")]
+
+mod as_written;
+mod corrected;
+mod guides;
+mod params;
+mod radius;
+pub mod recurrence;
+
+#[cfg(test)]
+mod tests;
+
+use noisefloor_denoiser::Citation;
+
+pub use as_written::{AS_WRITTEN_ENTRY, GeometricAsWritten};
+pub use corrected::{CORRECTED_ENTRY, GeometricCorrected};
+pub use params::{AsWrittenParams, CorrectedParams, LARGEST_RADIUS_PX, Spread};
+pub use recurrence::Recurrence;
+
+/// The source work of both variants.
+pub const CITATION: Citation = Citation {
+    key: "finalstage2020",
+    text: "Simple Geometric Image Denoising for Real-time Path Tracers, slides about the Final Stage renderer, 2020",
+};

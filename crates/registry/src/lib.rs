@@ -1,1 +1,33 @@
-//! The one slice of built-in methods, chained with a user's own
+//! The one slice of built-in methods, chained with a user's own.
+//!
+//! This crate alone depends on every method. To add one: a line in its `Cargo.toml` and a line in [`builtin`].
+//!
+//! ```
+//! let registry = noisefloor_registry::registry(&[]);
+//! let method = registry.build("guarded(mc)", &serde_json::Map::new())?;
+//! assert_eq!(method.denoiser.card().id, "guarded(mc)");
+//! # Ok::<(), noisefloor_denoiser::BuildError>(())
+//! ```
+
+mod table;
+
+#[cfg(test)]
+mod tests;
+
+use noisefloor_denoiser::{Entry, MC_ENTRY, Registry};
+use noisefloor_geometric::{AS_WRITTEN_ENTRY, CORRECTED_ENTRY};
+
+pub use table::{methods_table, params_table};
+
+/// The built-in methods in display order.
+#[must_use]
+pub fn builtin() -> &'static [Entry] {
+    const BUILTIN: &[Entry] = &[MC_ENTRY, CORRECTED_ENTRY, AS_WRITTEN_ENTRY];
+    BUILTIN
+}
+
+/// The built-in methods followed by `extra`; an extra entry with the id of a built-in one replaces it.
+#[must_use]
+pub fn registry(extra: &[Entry]) -> Registry {
+    Registry::new(builtin(), extra)
+}

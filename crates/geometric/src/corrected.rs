@@ -1,0 +1,214 @@
+use noisefloor_denoiser::{
+    DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Need, Output, StageTimer, build_with,
+};
+use noisefloor_frame::{FeatureId, Image};
+use rayon::prelude::*;
+
+use crate::guides::{Guides, Tests};
+use crate::{CITATION, CorrectedParams, Spread, radius};
+
+const ID: &str = "geometric-corrected";
+
+/// Registry entry of [`GeometricCorrected`].
+pub const CORRECTED_ENTRY: Entry = Entry {
+    id: ID,
+    summary: "cone filter over neighbours of like material, depth and normal, radius from the noise",
+    params: CorrectedParams::DOCS,
+    defaults: || serde_json::to_value(CorrectedParams::default()).unwrap_or_default(),
+    build: |overrides| build_with(ID, CorrectedParams::DOCS, overrides, GeometricCorrected::new),
+};
+
+/// The simple geometric denoiser with its evident slips mended: see the crate documentation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GeometricCorrected {
+    params: CorrectedParams,
+}
+
+impl GeometricCorrected {
+    /// Validates the parameters.
+    ///
+    /// # Errors
+    /// The name of the first parameter that is out of range, see [`CorrectedParams::DOCS`].
+    pub fn new(params: CorrectedParams) -> Result<Self, &'static str> {
+        params.validate()?;
+        Ok(Self { params })
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &CorrectedParams {
+        &self.params
+    }
+}
+
+impl Default for GeometricCorrected {
+    fn default() -> Self {
+        Self { params: CorrectedParams::default() }
+    }
+}
+
+/// The needs that both variants share.
+pub(crate) fn needs(tests: Tests) -> Vec<Need> {
+    let features = [
+        (tests.material_ids, FeatureId::Material),
+        (tests.depth, FeatureId::Depth),
+        (tests.normal, FeatureId::Normal),
+    ];
+    let features = features.into_iter().filter(|(on, _)| *on).map(|(_, id)| Need::Feature(id));
+    [Need::ColorVariance, Need::Samples(2)].into_iter().chain(features).collect()
+}
+
+/// Rows of RGB triples to a planar image.
+pub(crate) fn planar(rows: &[Vec<[f32; 3]>], width: usize) -> Image {
+    Image::from_fn(width, rows.len(), 3, |c, x, y| rows[y][x][c])
+}
+
+/// Mean and largest kernel radius, and its picture if asked for.
+pub(crate) fn describe(output: &mut Output, radii: Vec<f32>, input: &Input<'_>) {
+    let (width, height) = (input.target.width(), input.target.height());
+    let mean = radii.iter().map(|&r| f64::from(r)).sum::<f64>() / radii.len() as f64; // an image is never empty
+    let largest = radii.iter().copied().fold(0.0, f32::max);
+    output.figures.push(("mean kernel radius, px".into(), mean));
+    output.figures.push(("largest kernel radius, px".into(), f64::from(largest)));
+    if input.diagnostics != Diagnostics::Off {
+        let image = Image::from_vec(width, height, 1, radii).expect("one radius per pixel");
+        output.diagnostics.push(("kernel radius".into(), image));
+    }
+}
+
+impl Denoiser for GeometricCorrected {
+    fn card(&self) -> MethodCard {
+        let mut card = MethodCard::new(ID, "Geometric, corrected", CITATION);
+        card.needs = needs(self.tests());
+        card.claims.consistent = self.params.spread != Spread::SampleVariance;
+        card.notes.push(match self.params.spread {
+            Spread::SampleVariance => {
+                "radius from the variance of one sample: depends on exposure, never shrinks, not consistent"
+                    .into()
+            }
+            Spread::StdOfMean => "radius from the standard error: depends on exposure".into(),
+            Spread::Relative => "radius from the relative standard error".into(),
+        });
+        if !self.params.material_ids {
+            card.notes.push("material ids are not compared".into());
+        }
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        let card = self.card();
+        input.check(&card)?;
+        let frame = input.target;
+        let mut timer = StageTimer::start();
+
+        // Kernel radius from the noise.
+        let radii = radius::corrected(frame, &self.params).ok_or_else(|| no_variance(&card))?;
+        let guides = Guides::new(frame, self.tests());
+        timer.finish("radius");
+
+        // Weighted mean over like neighbours. All weights come from the input; nothing is filtered in place.
+        let filter = Filter {
+            width: frame.width(),
+            height: frame.height(),
+            mean: [0, 1, 2].map(|c| frame.color.mean.plane(c)),
+            radii: &radii,
+            guides: &guides,
+            depth_threshold: self.params.depth_threshold as f32,
+            normal_threshold: self.params.normal_threshold as f32,
+            distances: Distances::new(self.params.radius_max_px),
+        };
+        let rows: Vec<_> = (0..frame.height()).into_par_iter().map(|y| filter.row(y)).collect();
+        let mut output = Output::from_image(planar(&rows, frame.width()));
+        timer.finish("filter");
+
+        describe(&mut output, radii, input);
+        output.stages = timer.into_stages();
+        Ok(output)
+    }
+}
+
+/// For a frame whose variance vanished between check and use, which cannot be; kept as an error all the same.
+pub(crate) fn no_variance(card: &MethodCard) -> DenoiseError {
+    DenoiseError::MissingInputs { method: card.id.clone(), missing: vec![Need::ColorVariance] }
+}
+
+impl GeometricCorrected {
+    fn tests(&self) -> Tests {
+        let p = &self.params;
+        Tests { material_ids: p.material_ids, depth: p.depth_test, normal: p.normal_test }
+    }
+}
+
+/// Euclidean lengths of whole-pixel offsets.
+struct Distances {
+    side: usize,
+    lengths: Vec<f32>,
+}
+
+impl Distances {
+    fn new(radius: f64) -> Self {
+        let side = radius.ceil() as usize + 1;
+        let length = |i: usize| ((i / side).pow(2) as f32 + (i % side).pow(2) as f32).sqrt();
+        Self { side, lengths: (0..side * side).map(length).collect() }
+    }
+
+    /// Lengths for |dy| fixed, indexed by |dx|.
+    fn row(&self, dy: usize) -> &[f32] {
+        &self.lengths[dy * self.side..][..self.side]
+    }
+}
+
+struct Filter<'a> {
+    width: usize,
+    height: usize,
+    mean: [&'a [f32]; 3],
+    radii: &'a [f32],
+    guides: &'a Guides,
+    depth_threshold: f32,
+    normal_threshold: f32,
+    distances: Distances,
+}
+
+impl Filter<'_> {
+    fn row(&self, y: usize) -> Vec<[f32; 3]> {
+        (0..self.width).map(|x| self.pixel(x, y)).collect()
+    }
+
+    /// Σ w·u / Σ w over the neighbours closer than R, weight 1 − distance/R, the pixel itself with weight 1.
+    fn pixel(&self, x: usize, y: usize) -> [f32; 3] {
+        let p = y * self.width + x;
+        let center = self.mean.map(|plane| plane[p]);
+        let radius = self.radii[p];
+        if radius <= 1.0 {
+            return center; // no whole pixel lies closer than R
+        }
+        let inverse = 1.0 / radius; // radius > 1
+        let reach = radius.ceil() as usize - 1; // largest whole offset below R
+        let g = self.guides;
+        let (id, depth, no_normal) = (g.id[p], g.depth[p], g.no_normal[p]);
+        let normal = [0, 1, 2].map(|c| g.normal[c][p]);
+        let mut total = center.map(f64::from);
+        let mut sum = 1.0;
+        for qy in y.saturating_sub(reach)..(y + reach + 1).min(self.height) {
+            let lengths = self.distances.row(qy.abs_diff(y));
+            for qx in x.saturating_sub(reach)..(x + reach + 1).min(self.width) {
+                let q = qy * self.width + qx;
+                let cosine =
+                    normal[0] * g.normal[0][q] + normal[1] * g.normal[1][q] + normal[2] * g.normal[2][q];
+                // A NaN makes a comparison false and so keeps the neighbour out.
+                let alike = (g.id[q] == id)
+                    & ((g.depth[q] - depth).abs() <= self.depth_threshold * depth.max(g.depth[q]))
+                    & (cosine + no_normal + g.no_normal[q] >= self.normal_threshold);
+                let weight = (1.0 - lengths[qx.abs_diff(x)] * inverse).max(0.0);
+                if alike & (weight > 0.0) & (q != p) {
+                    let weight = f64::from(weight);
+                    sum += weight;
+                    for c in 0..3 {
+                        total[c] += weight * f64::from(self.mean[c][q]);
+                    }
+                }
+            }
+        }
+        total.map(|t| (t / sum) as f32) // sum ≥ 1
+    }
+}
