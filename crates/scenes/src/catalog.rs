@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 use crate::Scene;
-use crate::builtin::cornell;
+use crate::builtin::{cornell, outdoor, toaster};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +24,16 @@ const SCENES: &[SceneEntry] = &[
         id: cornell::DIFFUSE_ID,
         about: "Cornell box with its two diffuse blocks, measured geometry: the yardstick for rendering speed",
         build: cornell::cornell_diffuse,
+    },
+    SceneEntry {
+        id: toaster::ID,
+        about: "steel toaster on a kitchen counter, thin lens: stands in for the toaster of moon2013flash",
+        build: toaster::toaster,
+    },
+    SceneEntry {
+        id: outdoor::ID,
+        about: "shaded brick courtyard with two potted shrubs: stands in for the outdoor scene of moon2013flash",
+        build: outdoor::outdoor,
     },
 ];
 
