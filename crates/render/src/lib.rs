@@ -1,1 +1,31 @@
-//! A deterministic path tracer that records frames with their statistics
+//! A deterministic, multi-threaded path tracer that records frames with their statistics.
+//!
+//! [`Prepared::new`] checks a scene and builds its acceleration structure once; [`render`] and [`render_reference`] make
+//! frames and references from it. Only what a [`Record`] asks for is gathered, and only what the scene can give.
+
+mod bsdf;
+mod bvh;
+mod camera;
+mod classes;
+mod error;
+mod film;
+mod lights;
+mod math;
+mod path;
+mod plan;
+mod prepare;
+mod progress;
+mod record;
+mod render;
+mod request;
+mod sampler;
+mod surface;
+mod tally;
+
+pub use classes::{ClassMap, OUT_OF_FOCUS, PixelClass, pixel_classes};
+pub use error::RenderError;
+pub use prepare::Prepared;
+pub use progress::{Progress, Silent};
+pub use record::{Keep, Quantity, Record, available};
+pub use render::{render, render_reference};
+pub use request::{DEEPEST, LONGEST_SEQUENCE, RenderRequest};

@@ -1,0 +1,222 @@
+//! From a request to the planes that are kept, and from the planes to a frame.
+
+use std::collections::BTreeMap;
+
+use glam::Vec3A;
+use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Variance};
+
+use crate::film::Planes;
+use crate::path::Outcome;
+use crate::tally::Tally;
+use crate::{Keep, Prepared, Quantity, Record, RenderError};
+
+/// Values in a tally without features and flash: the colour.
+pub const COLOR: usize = 3;
+/// Colour, then albedo, normal, depth, visibility, direct.
+pub const WITH_FEATURES: usize = COLOR + 11;
+/// Colour, then F0, S and their sum.
+pub const WITH_FLASH: usize = COLOR + 9;
+/// Colour, features, flash.
+pub const WITH_BOTH: usize = WITH_FEATURES + 9;
+
+/// Where the value of a plane comes from; numbers count values of a tally.
+#[derive(Debug, Clone, Copy)]
+enum Source {
+    Mean(usize),
+    Variance(usize),
+    Half(usize, usize),
+    /// Covariance of the means of values `i` and `i + 3`, whose sum is value `i + 6`.
+    Covariance(usize),
+    Material,
+}
+
+/// What is kept.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    kept: Vec<(Quantity, Keep)>,
+    color: Keep,
+    sources: Vec<Source>,
+    /// Whether first-hit features are gathered.
+    pub features: bool,
+    /// Whether the flash is gathered.
+    pub flash: bool,
+}
+
+/// First value and number of values of a quantity in a tally.
+fn values(quantity: Quantity, features: bool) -> (usize, usize) {
+    match quantity {
+        Quantity::Albedo => (3, 3),
+        Quantity::Normal => (6, 3),
+        Quantity::Depth => (9, 1),
+        Quantity::Visibility => (10, 1),
+        Quantity::Direct => (11, 3),
+        Quantity::Material => (0, 0),
+        Quantity::Flash => (if features { WITH_FEATURES } else { COLOR }, 3),
+    }
+}
+
+impl Plan {
+    /// Checks what is wanted against what the scene can give. `limit`: the most that is kept of anything.
+    pub fn new(scene: &Prepared, record: &Record, limit: Keep) -> Result<Self, RenderError> {
+        let both = |keep: Keep| Keep {
+            variance: keep.variance && limit.variance,
+            halves: keep.halves && limit.halves,
+        };
+        let kept: Vec<(Quantity, Keep)> = match record {
+            Record::Available => scene.available().iter().map(|q| (*q, limit)).collect(),
+            Record::Exactly(map) => map.iter().map(|(q, keep)| (*q, both(*keep))).collect(),
+        };
+        if let Some((missing, _)) = kept.iter().find(|(q, _)| !scene.available().contains(q)) {
+            let names: Vec<&str> = scene.available().iter().map(|q| q.name()).collect();
+            return Err(RenderError::Unavailable {
+                scene: scene.id().into(),
+                quantity: missing.name(),
+                available: names.join(", "),
+            });
+        }
+        let flash = kept.iter().any(|(q, _)| *q == Quantity::Flash);
+        let features = kept.iter().any(|(q, _)| *q != Quantity::Flash);
+        let mut plan = Self { kept, color: limit, sources: Vec::new(), features, flash };
+        plan.list_sources();
+        Ok(plan)
+    }
+
+    /// In the order in which [`Plan::frame`] takes the planes.
+    fn list_sources(&mut self) {
+        let mut sources = Vec::new();
+        let mut estimate = |first: usize, count: usize, keep: Keep| {
+            let range = first..first + count;
+            sources.extend(range.clone().map(Source::Mean));
+            if keep.variance {
+                sources.extend(range.clone().map(Source::Variance));
+            }
+            if keep.halves {
+                for half in [0, 1] {
+                    sources.extend(range.clone().map(|i| Source::Half(half, i)));
+                }
+            }
+        };
+        estimate(0, 3, self.color);
+        let mut last = Vec::new();
+        for (quantity, keep) in &self.kept {
+            let (first, count) = values(*quantity, self.features);
+            match quantity {
+                Quantity::Material => last.push(Source::Material),
+                Quantity::Flash => {
+                    estimate(first, count, *keep);
+                    estimate(first + 3, count, *keep);
+                    if keep.variance {
+                        last.extend((first..first + 3).map(Source::Covariance));
+                    }
+                }
+                _ => estimate(first, count, *keep),
+            }
+        }
+        sources.extend(last);
+        self.sources = sources;
+    }
+
+    /// Planes of a frame.
+    pub fn planes(&self) -> usize {
+        self.sources.len()
+    }
+
+    /// Writes everything about a pixel, one value per plane.
+    pub fn write<const C: usize>(&self, tally: &mut Tally<C>, material: i32, out: &mut [f32]) {
+        let total = tally.total();
+        let mean = total.mean();
+        let variance = total.mean_variance().unwrap_or([0.0; C]);
+        let halves = [tally.half_mean(0), tally.half_mean(1)];
+        for (slot, source) in out.iter_mut().zip(&self.sources) {
+            *slot = match *source {
+                Source::Mean(i) => mean[i],
+                Source::Variance(i) => variance[i],
+                Source::Half(half, i) => halves[half][i],
+                // Polarisation: the f64 rounding of the variances is far below any covariance that matters.
+                Source::Covariance(i) => 0.5 * (variance[i + 6] - variance[i] - variance[i + 3]),
+                Source::Material => f64::from(material),
+            } as f32;
+        }
+    }
+
+    /// Puts the planes together into `frame`, whose colour is replaced.
+    pub fn fill(
+        &self,
+        frame: &mut Frame,
+        planes: Planes,
+        width: usize,
+        height: usize,
+    ) -> Result<(), FrameError> {
+        let mut planes = planes.into_iter();
+        let mut image = |channels: usize| {
+            let data: Vec<f32> = planes.by_ref().take(channels).flatten().collect();
+            Image::from_vec(width, height, channels, data)
+        };
+        let mut estimate = |channels: usize, keep: Keep| -> Result<Estimate, FrameError> {
+            Ok(Estimate {
+                mean: image(channels)?,
+                variance: if keep.variance { Some(Variance::of_mean(image(channels)?)) } else { None },
+                halves: if keep.halves { Some([image(channels)?, image(channels)?]) } else { None },
+            })
+        };
+        frame.color = estimate(3, self.color)?;
+        let mut features: BTreeMap<FeatureId, Estimate> = BTreeMap::new();
+        let mut flash = None;
+        for (quantity, keep) in &self.kept {
+            match quantity.feature() {
+                Some(FeatureId::Material) => {}
+                Some(id) => {
+                    features.insert(id, estimate(values(*quantity, self.features).1, *keep)?);
+                }
+                None => flash = Some((estimate(3, *keep)?, estimate(3, *keep)?, keep.variance)),
+            }
+        }
+        for (quantity, _) in &self.kept {
+            match quantity {
+                Quantity::Material => {
+                    features.insert(FeatureId::Material, Estimate::from_mean(image(1)?));
+                }
+                Quantity::Flash => {
+                    if let Some((base, light, covariance)) = flash.take() {
+                        let covariance = if covariance { Some(image(3)?) } else { None };
+                        frame.flash = Some(Flash::Parts { base, light, covariance });
+                    }
+                }
+                _ => {}
+            }
+        }
+        frame.features = features;
+        frame.check()
+    }
+}
+
+/// The values of a tally in their order, and whether all are finite; if not, they are zero.
+#[inline(always)]
+pub fn tally_values<const FEATURES: bool, const FLASH: bool, const C: usize>(
+    o: &Outcome,
+) -> ([f32; C], bool) {
+    let mut sum = o.color;
+    let mut out = [0.0; C];
+    let mut at = 0;
+    let mut put = |v: Vec3A, count: usize| {
+        let v = v.to_array();
+        out[at..at + count].copy_from_slice(&v[..count]);
+        at += count;
+    };
+    put(o.color, 3);
+    if FEATURES {
+        sum += o.albedo + o.normal + o.direct + Vec3A::splat(o.depth);
+        put(o.albedo, 3);
+        put(o.normal, 3);
+        put(Vec3A::new(o.depth, o.visibility, 0.0), 2);
+        put(o.direct, 3);
+    }
+    if FLASH {
+        let both = o.flash_base + o.eye_light;
+        sum += both;
+        put(o.flash_base, 3);
+        put(o.eye_light, 3);
+        put(both, 3);
+    }
+    if sum.is_finite() { (out, true) } else { ([0.0; C], false) }
+}

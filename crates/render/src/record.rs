@@ -1,0 +1,135 @@
+use std::collections::BTreeMap;
+
+use noisefloor_frame::FeatureId;
+use noisefloor_scenes::{Scattering, Scene};
+use serde::{Deserialize, Serialize};
+
+/// What can be recorded beside the colour, which always comes with variance and halves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Quantity {
+    /// [`FeatureId::Albedo`]: diffuse reflectance, mirror reflectance, conductor reflectance at normal incidence, 1 for
+    /// glass, 0 for background.
+    Albedo,
+    /// [`FeatureId::Normal`]: shading normal in world space, turned to the viewer, 0 for background.
+    Normal,
+    /// [`FeatureId::Depth`]: distance from the ray's origin to the first hit, 0 for background.
+    Depth,
+    /// [`FeatureId::Visibility`]: mean over the samples of 1 if a shadow ray from the first hit reached its light and 0
+    /// if it was blocked or none was traced (background, perfectly specular, light below the horizon).
+    Visibility,
+    /// [`FeatureId::Direct`]: emission seen directly plus light scattered once; the colour at path depth 2.
+    Direct,
+    /// [`FeatureId::Material`]: index of the first sample's material, −1 for background; a mean only.
+    Material,
+    /// [`noisefloor_frame::Flash::Parts`] (moon2013flash, Sec. 3.1).
+    Flash,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Albedo,
+        Self::Normal,
+        Self::Depth,
+        Self::Visibility,
+        Self::Direct,
+        Self::Material,
+        Self::Flash,
+    ];
+
+    /// Name in study files and on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Albedo => "albedo",
+            Self::Normal => "normal",
+            Self::Depth => "depth",
+            Self::Visibility => "visibility",
+            Self::Direct => "direct",
+            Self::Material => "material",
+            Self::Flash => "flash",
+        }
+    }
+
+    /// Inverse of [`Quantity::name`].
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|q| q.name() == name)
+    }
+
+    /// The feature it becomes; `None` for the flash, which is no feature.
+    #[must_use]
+    pub fn feature(self) -> Option<FeatureId> {
+        Some(match self {
+            Self::Albedo => FeatureId::Albedo,
+            Self::Normal => FeatureId::Normal,
+            Self::Depth => FeatureId::Depth,
+            Self::Visibility => FeatureId::Visibility,
+            Self::Direct => FeatureId::Direct,
+            Self::Material => FeatureId::Material,
+            Self::Flash => return None,
+        })
+    }
+}
+
+/// What is kept of a quantity beside its mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Keep {
+    /// Variance of the mean, from 2 samples on.
+    pub variance: bool,
+    /// Half buffers, from 2 samples on.
+    pub halves: bool,
+}
+
+impl Keep {
+    /// The mean alone.
+    pub const MEAN: Self = Self { variance: false, halves: false };
+    /// Mean, variance and halves.
+    pub const ALL: Self = Self { variance: true, halves: true };
+}
+
+/// What to record beside the colour.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Record {
+    /// Everything the scene can give, with variances and halves.
+    #[default]
+    Available,
+    /// These, and an error if the scene cannot give one of them.
+    Exactly(BTreeMap<Quantity, Keep>),
+}
+
+impl Record {
+    /// The colour alone.
+    #[must_use]
+    pub fn color_only() -> Self {
+        Self::Exactly(BTreeMap::new())
+    }
+
+    /// These quantities with variances and halves.
+    #[must_use]
+    pub fn exactly(quantities: impl IntoIterator<Item = Quantity>) -> Self {
+        Self::Exactly(quantities.into_iter().map(|q| (q, Keep::ALL)).collect())
+    }
+}
+
+/// What a scene can give: visibility and direct light need a light, the flash also needs a surface that is not
+/// perfectly specular.
+#[must_use]
+pub fn available(scene: &Scene) -> Vec<Quantity> {
+    let models = scene.models();
+    let lit = models.area_lights || models.sun || models.sky;
+    let rough = scene
+        .materials
+        .iter()
+        .any(|m| matches!(m.scattering, Scattering::Diffuse { .. } | Scattering::Conductor { .. }));
+    Quantity::ALL
+        .into_iter()
+        .filter(|q| match q {
+            Quantity::Visibility | Quantity::Direct => lit,
+            Quantity::Flash => lit && rough,
+            _ => true,
+        })
+        .collect()
+}

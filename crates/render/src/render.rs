@@ -1,0 +1,241 @@
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+use noisefloor_frame::{Counts, Estimate, Frame, Image, Provenance, Reference, Samples, Sampling};
+
+use crate::bvh::{Ray, Stack};
+use crate::camera::Eye;
+use crate::film::{Extent, Planes, develop};
+use crate::path::trace;
+use crate::plan::{COLOR, Plan, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
+use crate::request::LONGEST_SEQUENCE;
+use crate::sampler::{Independent, OwenSobol, Sampler, pixel_key};
+use crate::tally::Tally;
+use crate::{Keep, Progress, RenderError, RenderRequest};
+
+/// Sequences of a reference are numbered from here on, those of a frame from 0: equal seeds do not make a frame a part
+/// of its own reference.
+const REFERENCE_SEQUENCES: u32 = 1 << 16;
+
+/// Renders a frame on the threads of the current rayon pool. The result is the same, bit for bit, for any number of them.
+///
+/// Samples are accumulated in blocks of [`noisefloor_frame::BLOCK_SAMPLES`] that are merged in a fixed tree. With
+/// low-discrepancy sampling, even and odd samples are points of two separately randomised sequences, and the variance is
+/// s²/n all the same, which is not the variance of the mean there. Variances and halves are left out with one sample.
+///
+/// # Errors
+/// [`RenderError::InvalidRequest`] and [`RenderError::Unavailable`] before any work; [`RenderError::Cancelled`].
+pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Frame, RenderError> {
+    request.check()?;
+    let limit = if request.spp >= 2 { Keep::ALL } else { Keep::MEAN };
+    let plan = Plan::new(request.scene, &request.record, limit)?;
+    let start = Instant::now();
+    let dropped = AtomicU64::new(0);
+    let shot = Shot::new(request, &plan, &dropped);
+    let planes = shot.dispatch(plan.planes(), progress)?;
+    let even = |end: u32| end.div_ceil(2);
+    let end = request.sample_start + request.spp; // checked above
+    let samples =
+        Samples::uniform(request.spp).with_half_a(Counts::Uniform(even(end) - even(request.sample_start)));
+    let mut frame = blank(request, samples, request.sampling);
+    plan.fill(&mut frame, planes, request.width, request.height)?;
+    frame.provenance = provenance(request, start, dropped.into_inner());
+    frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
+    Ok(frame)
+}
+
+/// Renders a reference: `request.spp` samples in all, split over `parts` separately randomised low-discrepancy sequences,
+/// whatever `request.sampling` says. Of the recorded quantities only the means are kept.
+///
+/// # Errors
+/// Like [`render`]; [`RenderError::InvalidRequest`] also if there are fewer than [`Reference::LEAST_PARTS`] parts, if
+/// `spp` is not a multiple of `parts`, if a part is longer than 65536, or if `sample_start` is not 0.
+pub fn render_reference(
+    request: &RenderRequest<'_>,
+    parts: u32,
+    progress: &dyn Progress,
+) -> Result<Reference, RenderError> {
+    let request = &RenderRequest { sampling: Sampling::Independent, ..request.clone() };
+    request.check()?;
+    let wrong = |parameter, value: u32, expected: String| {
+        Err(RenderError::InvalidRequest { parameter, value: value.to_string(), expected })
+    };
+    let least = Reference::LEAST_PARTS as u32;
+    if parts < least {
+        return wrong("parts", parts, format!("at least {least}"));
+    }
+    if !request.spp.is_multiple_of(parts) || request.spp / parts > LONGEST_SEQUENCE {
+        let expected = format!("a multiple of the {parts} parts, at most 65536 each");
+        return wrong("spp", request.spp, expected);
+    }
+    if request.sample_start != 0 {
+        return wrong("sample_start", request.sample_start, "0 for a reference".into());
+    }
+    let plan = Plan::new(request.scene, &request.record, Keep::MEAN)?;
+    let start = Instant::now();
+    let dropped = AtomicU64::new(0);
+    let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &dropped) };
+    let mut planes = shot.dispatch(3 * parts as usize + plan.planes(), progress)?;
+    let rest = planes.split_off(3 * parts as usize);
+    let images = planes
+        .chunks_exact(3)
+        .map(|rgb| Image::from_vec(request.width, request.height, 3, rgb.concat()))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut reference = Reference::from_parts(images, request.spp / parts, Sampling::LowDiscrepancy)?;
+    let mut recorded = blank(request, Samples::uniform(request.spp), Sampling::LowDiscrepancy);
+    plan.fill(&mut recorded, rest, request.width, request.height)?;
+    reference.frame.features = recorded.features;
+    reference.frame.flash = recorded.flash;
+    reference.frame.provenance = provenance(request, start, dropped.into_inner());
+    reference.frame.provenance.sampler = Some(crate::sampler::name(Sampling::LowDiscrepancy).into());
+    reference.frame.provenance.extra.insert("parts".into(), parts.to_string());
+    Ok(reference)
+}
+
+/// A frame with a black colour, to be filled.
+fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sampling) -> Frame {
+    Frame::from_color(Estimate::from_mean(Image::new(request.width, request.height, 3)), samples, sampling)
+}
+
+fn provenance(request: &RenderRequest<'_>, start: Instant, non_finite: u64) -> Provenance {
+    let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
+    let mut extra = std::collections::BTreeMap::new();
+    if non_finite > 0 {
+        extra.insert("non_finite_samples".into(), non_finite.to_string());
+    }
+    Provenance {
+        scene: Some(request.scene.id().into()),
+        renderer: Some(concat!("noisefloor ", env!("CARGO_PKG_VERSION")).into()),
+        integrator: Some(format!("path depth={}", request.depth)),
+        sampler: None,
+        seed: Some(request.seed),
+        filter: Some(request.filter),
+        camera: Some(eye.provenance(&request.scene.camera)),
+        render_seconds: Some(start.elapsed().as_secs_f64()),
+        render_threads: u32::try_from(rayon::current_num_threads()).ok(),
+        extra,
+    }
+}
+
+/// Everything that is common to the pixels of one rendering.
+struct Shot<'a> {
+    request: &'a RenderRequest<'a>,
+    plan: &'a Plan,
+    eye: Eye,
+    parts: Option<u32>,
+    non_finite: &'a AtomicU64,
+}
+
+/// What a thread keeps from pixel to pixel.
+struct Scratch<const C: usize> {
+    stack: Stack,
+    tally: Tally<C>,
+}
+
+impl<'a> Shot<'a> {
+    fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
+        let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
+        Self { request, plan, eye, parts: None, non_finite }
+    }
+
+    /// Picks the code for what is recorded, so that what is not recorded costs nothing.
+    fn dispatch(&self, planes: usize, progress: &dyn Progress) -> Result<Planes, RenderError> {
+        match (self.plan.features, self.plan.flash) {
+            (false, false) => self.run::<false, false, COLOR>(planes, progress),
+            (true, false) => self.run::<true, false, WITH_FEATURES>(planes, progress),
+            (false, true) => self.run::<false, true, WITH_FLASH>(planes, progress),
+            (true, true) => self.run::<true, true, WITH_BOTH>(planes, progress),
+        }
+    }
+
+    fn run<const FEATURES: bool, const FLASH: bool, const C: usize>(
+        &self,
+        planes: usize,
+        progress: &dyn Progress,
+    ) -> Result<Planes, RenderError> {
+        let request = self.request;
+        let extent = Extent { width: request.width, height: request.height, samples: request.spp };
+        let scratch = || Scratch::<C> { stack: request.scene.bvh.stack(), tally: Tally::new() };
+        develop(extent, planes, progress, scratch, |scratch, x, y, out| {
+            let key = pixel_key(request.seed, (y * request.width + x) as u64);
+            match (self.parts, request.sampling) {
+                (Some(parts), _) => {
+                    self.reference_pixel::<FEATURES, FLASH, C>(scratch, x, y, key, parts, out)
+                }
+                (None, Sampling::Independent) => {
+                    let sampler = |k| Independent::new(key, k);
+                    let material = self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, self.range(), sampler);
+                    self.plan.write(&mut scratch.tally, material, out);
+                }
+                (None, Sampling::LowDiscrepancy) => {
+                    let sampler = |k: u32| OwenSobol::new(key, k & 1, k >> 1);
+                    let material = self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, self.range(), sampler);
+                    self.plan.write(&mut scratch.tally, material, out);
+                }
+            }
+        })
+    }
+
+    fn range(&self) -> std::ops::Range<u32> {
+        self.request.sample_start..self.request.sample_start + self.request.spp
+    }
+
+    /// Fills the tally with the samples of a pixel; returns the material of the first one.
+    fn pixel<S: Sampler, const FEATURES: bool, const FLASH: bool, const C: usize>(
+        &self,
+        scratch: &mut Scratch<C>,
+        x: usize,
+        y: usize,
+        samples: std::ops::Range<u32>,
+        sampler: impl Fn(u32) -> S,
+    ) -> i32 {
+        let (scene, depth, eye) = (self.request.scene, self.request.depth, self.eye.position());
+        scratch.tally.clear();
+        let first = samples.start;
+        let mut material = -1;
+        for k in samples {
+            let sampler = sampler(k);
+            let (origin, direction) = self.eye.ray(x, y, sampler.group(0));
+            let ray = Ray { origin, direction };
+            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, depth, sampler, &mut scratch.stack);
+            let (values, finite) = tally_values::<FEATURES, FLASH, C>(&outcome);
+            if !finite {
+                self.non_finite.fetch_add(1, Ordering::Relaxed);
+            }
+            scratch.tally.push(k, &values);
+            if k == first {
+                material = outcome.material;
+            }
+        }
+        material
+    }
+
+    /// Colour means of the parts, then the means over all parts.
+    fn reference_pixel<const FEATURES: bool, const FLASH: bool, const C: usize>(
+        &self,
+        scratch: &mut Scratch<C>,
+        x: usize,
+        y: usize,
+        key: u64,
+        parts: u32,
+        out: &mut [f32],
+    ) {
+        let (colors, rest) = out.split_at_mut(3 * parts as usize);
+        let mut all = Tally::new();
+        let mut material = -1;
+        for (part, color) in colors.chunks_exact_mut(3).enumerate() {
+            let sequence = REFERENCE_SEQUENCES + part as u32;
+            let sampler = |k| OwenSobol::new(key, sequence, k);
+            let first =
+                self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, 0..self.request.spp / parts, sampler);
+            if part == 0 {
+                material = first;
+            }
+            let mean = scratch.tally.total().mean().map(|v| v as f32);
+            color.copy_from_slice(&mean[..3]);
+            // Parts have equal sample counts: the mean over all samples is the mean of their means.
+            all.push(part as u32, &mean);
+        }
+        self.plan.write(&mut all, material, rest);
+    }
+}

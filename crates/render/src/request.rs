@@ -1,0 +1,88 @@
+use noisefloor_frame::{PixelFilter, Sampling};
+
+use crate::{Prepared, Record, RenderError};
+
+/// Deepest path that may be asked for.
+pub const DEEPEST: u32 = 1024;
+
+/// Longest low-discrepancy sequence of one randomisation.
+pub const LONGEST_SEQUENCE: u32 = 1 << 16;
+
+/// One image to render.
+#[derive(Debug, Clone)]
+pub struct RenderRequest<'a> {
+    /// The scene with its acceleration structure.
+    pub scene: &'a Prepared,
+    /// Columns, at least 1.
+    pub width: usize,
+    /// Rows, at least 1.
+    pub height: usize,
+    /// Samples per pixel, at least 1.
+    pub spp: u32,
+    /// Index of the first sample: a range of a longer run of the same random seed. Even indices make half A.
+    pub sample_start: u32,
+    /// Random seed; frames of different seeds are independent.
+    pub seed: u64,
+    /// Largest number of path edges from the eye to a light, in 1..=1024: 1 shows emission seen directly, 2 adds light
+    /// scattered once (direct light), 3 scattered twice, and so on.
+    pub depth: u32,
+    /// Placement of camera rays in a pixel.
+    pub filter: PixelFilter,
+    /// Independent samples, or two separately randomised Owen-scrambled Sobol sequences, one for each half.
+    pub sampling: Sampling,
+    /// What to record beside the colour.
+    pub record: Record,
+}
+
+impl<'a> RenderRequest<'a> {
+    /// Independent samples, depth 8, box filter, random seed 0, recording everything available.
+    #[must_use]
+    pub fn new(scene: &'a Prepared, width: usize, height: usize, spp: u32) -> Self {
+        Self {
+            scene,
+            width,
+            height,
+            spp,
+            sample_start: 0,
+            seed: 0,
+            depth: 8,
+            filter: PixelFilter::Box,
+            sampling: Sampling::Independent,
+            record: Record::Available,
+        }
+    }
+
+    /// Checks everything but the recorded quantities.
+    pub(crate) fn check(&self) -> Result<(), RenderError> {
+        check_size(self.width, self.height)?;
+        let range = |parameter, value: String, expected: &str| {
+            Err(RenderError::InvalidRequest { parameter, value, expected: expected.to_owned() })
+        };
+        if self.spp == 0 {
+            return range("spp", "0".into(), "at least 1");
+        }
+        let Some(end) = self.sample_start.checked_add(self.spp) else {
+            return range("sample_start + spp", "too large".into(), "below 2^32");
+        };
+        if !(1..=DEEPEST).contains(&self.depth) {
+            return range("depth", self.depth.to_string(), "1..=1024");
+        }
+        if self.sampling == Sampling::LowDiscrepancy && end.div_ceil(2) > LONGEST_SEQUENCE {
+            return range("spp", end.to_string(), "at most 131072 with low-discrepancy sampling");
+        }
+        Ok(())
+    }
+}
+
+/// Checks an image size.
+pub(crate) fn check_size(width: usize, height: usize) -> Result<(), RenderError> {
+    // 2^28 pixels of three planes take 3 GiB: more is a typing error.
+    match width.checked_mul(height) {
+        Some(pixels) if (1..=1 << 28).contains(&pixels) => Ok(()),
+        _ => Err(RenderError::InvalidRequest {
+            parameter: "width × height",
+            value: format!("{width}×{height}"),
+            expected: "1 to 2^28 pixels".into(),
+        }),
+    }
+}

@@ -1,0 +1,62 @@
+//! Statistics of one pixel.
+
+use noisefloor_frame::{BLOCK_SAMPLES, BlockTree, Moments};
+
+/// Moments of `C` values in the fixed tree of sample blocks, and the means of the even and of the odd samples.
+#[derive(Debug)]
+pub struct Tally<const C: usize> {
+    leaf: Moments<C>,
+    tree: BlockTree<C>,
+    sums: [[f64; C]; 2],
+    counts: [u32; 2],
+}
+
+impl<const C: usize> Tally<C> {
+    /// Nothing seen yet.
+    pub fn new() -> Self {
+        Self { leaf: Moments::default(), tree: BlockTree::default(), sums: [[0.0; C]; 2], counts: [0; 2] }
+    }
+
+    /// Forgets everything.
+    pub fn clear(&mut self) {
+        self.leaf = Moments::default();
+        self.tree.clear();
+        self.sums = [[0.0; C]; 2];
+        self.counts = [0; 2];
+    }
+
+    /// Adds sample `index` of the run. Leaves end where `index + 1` is a multiple of their size.
+    #[inline(always)]
+    pub fn push(&mut self, index: u32, values: &[f32; C]) {
+        let values = values.map(f64::from);
+        self.leaf.push(values);
+        let half = (index & 1) as usize;
+        for (sum, value) in self.sums[half].iter_mut().zip(values) {
+            *sum += value;
+        }
+        self.counts[half] += 1;
+        if (index + 1).is_multiple_of(BLOCK_SAMPLES) {
+            self.close();
+        }
+    }
+
+    #[inline(never)]
+    fn close(&mut self) {
+        self.tree.push(self.leaf);
+        self.leaf = Moments::default();
+    }
+
+    /// Moments of all samples.
+    pub fn total(&mut self) -> Moments<C> {
+        if self.leaf.count() > 0 {
+            self.close();
+        }
+        self.tree.total()
+    }
+
+    /// Mean of the even samples (`half` 0) or of the odd ones (1); zero if there was none.
+    pub fn half_mean(&self, half: usize) -> [f64; C] {
+        let count = f64::from(self.counts[half].max(1));
+        self.sums[half].map(|sum| sum / count)
+    }
+}
