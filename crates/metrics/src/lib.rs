@@ -1,1 +1,36 @@
-//! One table of image metrics: id, formula, epsilon, averaging order, direction, non-finite policy
+//! One table of image metrics: id, formula, epsilon, averaging order, direction, non-finite policy.
+//!
+//! [`METRICS`] says what each number is; [`Measurer`] computes all of them at once for any number of images against one
+//! reference, over the image and per pixel class, and says how much of each number's uncertainty is the reference's own.
+//!
+//! The noise of a reference must not pass for error. Where the formula allows, it is taken out: the product of the residuals
+//! to two independent halves is an unbiased squared error; a reference with a variance and no halves has that variance
+//! subtracted. Both can give values at or below zero when the error is smaller than the reference can show.
+//!
+//! ```
+//! use noisefloor_frame::{Image, Reference};
+//! use noisefloor_metrics::Measurer;
+//!
+//! let truth = Reference::exact(Image::filled(16, 16, 3, 0.5));
+//! let measured = Measurer::new(&truth, None)?.measure(&Image::filled(16, 16, 3, 0.75))?;
+//! assert_eq!(measured.values["mse"], Some(0.0625));
+//! # Ok::<(), noisefloor_metrics::MetricError>(())
+//! ```
+
+mod bootstrap;
+mod error;
+mod map;
+mod measurer;
+mod pixels;
+mod reference_noise;
+mod ssim;
+mod table;
+mod tone;
+mod trimmed;
+
+pub use bootstrap::{BLOCK_SIDE, block_bootstrap};
+pub use error::MetricError;
+pub use map::{ErrorKind, error_map};
+pub use measurer::{Classes, Measured, Measurer, Values};
+pub use table::{EPSILON, METRICS, Metric, TRIMMED_SHARE, metric};
+pub use tone::{srgb_curve, tone_map};

@@ -1,0 +1,37 @@
+use noisefloor_frame::FrameError;
+use thiserror::Error;
+
+/// Why images cannot be compared.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum MetricError {
+    /// Test image and reference, or parts of the reference, differ in shape, or are not of 3 channels.
+    #[error(transparent)]
+    Shape(#[from] FrameError),
+    /// The class map does not cover the image.
+    #[error("class map has {got} entries, the reference has {pixels} pixels")]
+    ClassMap {
+        /// Pixels of the reference.
+        pixels: usize,
+        /// Entries given.
+        got: usize,
+    },
+    /// An entry of the class map has no name.
+    #[error("class map has index {index} at pixel {pixel}, but only {names} class names were given")]
+    ClassIndex {
+        /// Row-major pixel.
+        pixel: usize,
+        /// Its class.
+        index: u8,
+        /// Names given.
+        names: usize,
+    },
+    /// No metric of this id.
+    #[error("unknown metric `{id}`; known: {known}")]
+    Unknown {
+        /// Id given.
+        id: String,
+        /// All ids.
+        known: String,
+    },
+}
