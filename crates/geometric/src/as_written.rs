@@ -18,7 +18,7 @@ pub const AS_WRITTEN_ENTRY: Entry = Entry {
 };
 
 /// The pseudo-code of the slides, literally. Its output has either sign and is of no use as an image.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GeometricAsWritten {
     params: AsWrittenParams,
 }
@@ -37,12 +37,6 @@ impl GeometricAsWritten {
     #[must_use]
     pub fn params(&self) -> &AsWrittenParams {
         &self.params
-    }
-}
-
-impl Default for GeometricAsWritten {
-    fn default() -> Self {
-        Self { params: AsWrittenParams::default() }
     }
 }
 
@@ -140,8 +134,8 @@ impl<'a> Literal<'a> {
                 // The parenthesis as printed. A zero radius gives an infinity, which is reported.
                 let weight = (1.0 - distance) / radius;
                 sum += weight;
-                for c in 0..3 {
-                    total[c] += weight * f64::from(self.mean[c][q]);
+                for (total, plane) in total.iter_mut().zip(self.mean) {
+                    *total += weight * f64::from(plane[q]);
                 }
             }
         }

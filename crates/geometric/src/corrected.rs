@@ -19,7 +19,7 @@ pub const CORRECTED_ENTRY: Entry = Entry {
 };
 
 /// The simple geometric denoiser with its evident slips mended: see the crate documentation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct GeometricCorrected {
     params: CorrectedParams,
 }
@@ -38,12 +38,6 @@ impl GeometricCorrected {
     #[must_use]
     pub fn params(&self) -> &CorrectedParams {
         &self.params
-    }
-}
-
-impl Default for GeometricCorrected {
-    fn default() -> Self {
-        Self { params: CorrectedParams::default() }
     }
 }
 
@@ -139,22 +133,24 @@ impl GeometricCorrected {
     }
 }
 
-/// Euclidean lengths of whole-pixel offsets.
+/// Euclidean lengths of the offsets (dx, dy) with both at most `reach` pixels.
 struct Distances {
-    side: usize,
+    reach: usize,
+    /// Rows by |dy|, columns by dx + reach.
     lengths: Vec<f32>,
 }
 
 impl Distances {
     fn new(radius: f64) -> Self {
-        let side = radius.ceil() as usize + 1;
-        let length = |i: usize| ((i / side).pow(2) as f32 + (i % side).pow(2) as f32).sqrt();
-        Self { side, lengths: (0..side * side).map(length).collect() }
+        let reach = radius.ceil() as usize;
+        let side = 2 * reach + 1;
+        let length = |i: usize| ((i / side).pow(2) as f32 + (i % side).abs_diff(reach).pow(2) as f32).sqrt();
+        Self { reach, lengths: (0..(reach + 1) * side).map(length).collect() }
     }
 
-    /// Lengths for |dy| fixed, indexed by |dx|.
-    fn row(&self, dy: usize) -> &[f32] {
-        &self.lengths[dy * self.side..][..self.side]
+    /// Lengths for |dy| fixed and dx from −`left` on, `count` of them.
+    fn row(&self, dy: usize, left: usize, count: usize) -> &[f32] {
+        &self.lengths[dy * (2 * self.reach + 1) + self.reach - left..][..count]
     }
 }
 
@@ -171,44 +167,63 @@ struct Filter<'a> {
 
 impl Filter<'_> {
     fn row(&self, y: usize) -> Vec<[f32; 3]> {
-        (0..self.width).map(|x| self.pixel(x, y)).collect()
+        let mut weights = vec![0.0; 2 * self.distances.reach + 1];
+        (0..self.width).map(|x| self.pixel(x, y, &mut weights)).collect()
     }
 
     /// Σ w·u / Σ w over the neighbours closer than R, weight 1 − distance/R, the pixel itself with weight 1.
-    fn pixel(&self, x: usize, y: usize) -> [f32; 3] {
+    fn pixel(&self, x: usize, y: usize, weights: &mut [f32]) -> [f32; 3] {
         let p = y * self.width + x;
-        let center = self.mean.map(|plane| plane[p]);
         let radius = self.radii[p];
         if radius <= 1.0 {
-            return center; // no whole pixel lies closer than R
+            return self.mean.map(|plane| plane[p]); // no whole pixel lies closer than R
         }
-        let inverse = 1.0 / radius; // radius > 1
         let reach = radius.ceil() as usize - 1; // largest whole offset below R
-        let g = self.guides;
-        let (id, depth, no_normal) = (g.id[p], g.depth[p], g.no_normal[p]);
-        let normal = [0, 1, 2].map(|c| g.normal[c][p]);
-        let mut total = center.map(f64::from);
-        let mut sum = 1.0;
+        let (mut total, mut sum) = ([0.0; 3], 0.0);
         for qy in y.saturating_sub(reach)..(y + reach + 1).min(self.height) {
-            let lengths = self.distances.row(qy.abs_diff(y));
-            for qx in x.saturating_sub(reach)..(x + reach + 1).min(self.width) {
-                let q = qy * self.width + qx;
-                let cosine =
-                    normal[0] * g.normal[0][q] + normal[1] * g.normal[1][q] + normal[2] * g.normal[2][q];
-                // A NaN makes a comparison false and so keeps the neighbour out.
-                let alike = (g.id[q] == id)
-                    & ((g.depth[q] - depth).abs() <= self.depth_threshold * depth.max(g.depth[q]))
-                    & (cosine + no_normal + g.no_normal[q] >= self.normal_threshold);
-                let weight = (1.0 - lengths[qx.abs_diff(x)] * inverse).max(0.0);
-                if alike & (weight > 0.0) & (q != p) {
-                    let weight = f64::from(weight);
-                    sum += weight;
-                    for c in 0..3 {
-                        total[c] += weight * f64::from(self.mean[c][q]);
-                    }
-                }
+            // Columns that can lie in the disc; dy ≤ reach < R keeps the root real.
+            let dy = qy.abs_diff(y);
+            let across = (radius * radius - (dy * dy) as f32).sqrt().ceil() as usize;
+            let across = across.min(reach);
+            let columns = x.saturating_sub(across)..(x + across + 1).min(self.width);
+            let weights = &mut weights[..columns.len()];
+            let lengths = self.distances.row(dy, x - columns.start, columns.len());
+            let start = qy * self.width + columns.start;
+            self.weigh(p, start, 1.0 / radius, lengths, weights); // radius > 1
+            if qy == y {
+                weights[x - columns.start] = 1.0; // whatever its features say
+            }
+            let [r, g, b] = self.mean.map(|plane| &plane[start..][..weights.len()]);
+            for (((&weight, &r), &g), &b) in weights.iter().zip(r).zip(g).zip(b) {
+                let weight = f64::from(weight);
+                sum += weight;
+                total[0] += weight * f64::from(r);
+                total[1] += weight * f64::from(g);
+                total[2] += weight * f64::from(b);
             }
         }
-        total.map(|t| (t / sum) as f32) // sum ≥ 1
+        total.map(|t| (t / sum) as f32) // sum ≥ 1, the pixel's own weight
+    }
+
+    /// Weights of the pixels from index `start` on for pixel `p`, without a branch so that it vectorises.
+    fn weigh(&self, p: usize, start: usize, inverse: f32, lengths: &[f32], weights: &mut [f32]) {
+        let g = self.guides;
+        let n = weights.len();
+        let part = |plane| -> &[f32] { &Vec::as_slice(plane)[start..][..n] };
+        let (id, depth, no_normal) = (part(&g.id), part(&g.depth), part(&g.no_normal));
+        let [nx, ny, nz] = [part(&g.normal[0]), part(&g.normal[1]), part(&g.normal[2])];
+        let (p_id, p_depth, p_none) = (g.id[p], g.depth[p], g.no_normal[p]);
+        let [px, py, pz] = [g.normal[0][p], g.normal[1][p], g.normal[2][p]];
+        let lengths = &lengths[..n];
+        for i in 0..n {
+            let cosine = px * nx[i] + py * ny[i] + pz * nz[i];
+            let far = if p_depth > depth[i] { p_depth } else { depth[i] };
+            // A NaN makes a comparison false and so keeps the neighbour out.
+            let alike = (id[i] == p_id)
+                & ((depth[i] - p_depth).abs() <= self.depth_threshold * far)
+                & (cosine + p_none + no_normal[i] >= self.normal_threshold);
+            let cone = 1.0 - lengths[i] * inverse;
+            weights[i] = if alike & (cone > 0.0) { cone } else { 0.0 };
+        }
     }
 }
