@@ -17,6 +17,9 @@ pub struct ParamDoc {
     pub about: &'static str,
 }
 
+/// Builds a method from overrides of its defaults.
+pub type Build = fn(&Map<String, Value>) -> Result<Box<dyn Denoiser>, BuildError>;
+
 /// How a method is found by name and built from parameters.
 #[derive(Clone, Copy)]
 pub struct Entry {
@@ -29,7 +32,7 @@ pub struct Entry {
     /// All parameters at their defaults, as a JSON object.
     pub defaults: fn() -> Value,
     /// Builds the method from overrides of the defaults (a JSON object); see [`build_with`].
-    pub build: fn(&Map<String, Value>) -> Result<Box<dyn Denoiser>, BuildError>,
+    pub build: Build,
 }
 
 impl fmt::Debug for Entry {

@@ -1,8 +1,10 @@
-use noisefloor_frame::Image;
-use noisefloor_stats::{Level, TTable};
+use noisefloor_frame::Variance;
+use noisefloor_stats::Level;
 use serde_json::Value;
 
-use crate::{BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output};
+use crate::{
+    BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, ParamDoc, half_widths,
+};
 
 /// Projects any method's output into the confidence interval of the input mean:
 /// D' = clamp(D, x̄ − t·s/√n, x̄ + t·s/√n) per pixel and channel.
@@ -25,6 +27,13 @@ impl Guarded {
     /// Level unless said otherwise: 99 %, that of the source work's second step.
     pub const DEFAULT_LEVEL: Level = Level::TWO_SIDED_99;
 
+    /// Its one parameter; all others belong to the inner method.
+    pub const PARAM: ParamDoc = ParamDoc {
+        name: "guard_level",
+        range: "above 0 and below 1, two-sided confidence",
+        about: "level of the interval that the output is projected into",
+    };
+
     /// Guards `inner` at a two-sided `level`.
     #[must_use]
     pub fn new(inner: Box<dyn Denoiser>, level: Level) -> Self {
@@ -34,9 +43,9 @@ impl Guarded {
     pub(crate) fn from_parts(id: &str, inner: Method, level: Option<Value>) -> Result<Method, BuildError> {
         let out_of_range = |value: &Value| BuildError::OutOfRange {
             method: id.into(),
-            parameter: "guard_level".into(),
+            parameter: Self::PARAM.name.into(),
             value: value.to_string(),
-            range: "two-sided confidence in (0, 1)".into(),
+            range: Self::PARAM.range.into(),
         };
         let level = match &level {
             None => Self::DEFAULT_LEVEL,
@@ -46,32 +55,9 @@ impl Guarded {
                 .ok_or_else(|| out_of_range(value))?,
         };
         let mut params = inner.params;
-        params["guard_level"] = level.confidence().into();
+        params[Self::PARAM.name] = level.confidence().into();
         Ok(Method { id: id.into(), params, denoiser: Box::new(Self::new(inner.denoiser, level)) })
     }
-}
-
-/// Half-widths t·s/√n per pixel and channel.
-pub(crate) fn half_widths(
-    variance: &Image,
-    counts: impl Fn(usize) -> u32,
-    level: Level,
-    least: u32,
-) -> Image {
-    let table = TTable::new(level, least);
-    let mut out = variance.clone();
-    // Consecutive pixels mostly share a count; the table lookup beyond its end is costly.
-    let mut last = (0, f64::INFINITY);
-    for plane in out.planes_mut() {
-        for (pixel, value) in plane.iter_mut().enumerate() {
-            let n = counts(pixel);
-            if n != last.0 {
-                last = (n, table.at(n));
-            }
-            *value = (last.1 * f64::from(value.max(0.0)).sqrt()) as f32;
-        }
-    }
-    out
 }
 
 impl Denoiser for Guarded {
@@ -93,6 +79,8 @@ impl Denoiser for Guarded {
         card.claims.enclosure = vec![claim("interval", 1.0, true)];
         card.claims.error_bound = vec![claim("Theorem 3.1", 2.0, true)];
         card.claims.consistent = true;
+        // What the inner method estimates describes its own output, not the projected one.
+        card.claims.estimates_error = false;
         card.notes.push(format!(
             "projected into the {} % interval of the input mean",
             (100.0 * self.level.confidence() * 1e6).round() / 1e6
@@ -104,11 +92,15 @@ impl Denoiser for Guarded {
         input.check(&self.card())?;
         let mut output = self.inner.denoise(input)?;
         let frame = input.target;
-        let variance =
-            frame.color.variance.as_ref().expect("checked against the card's needs").mean_variance();
-        let widths =
-            half_widths(variance, |p| frame.samples.at(p), self.level, frame.samples.total().least());
+        let variance = frame
+            .color
+            .variance
+            .as_ref()
+            .map(Variance::mean_variance)
+            .expect("checked against the card's needs");
+        let widths = half_widths(variance, &frame.samples, self.level);
         let mean = &frame.color.mean;
+        output.image.expect_shape("output of the guarded method", mean.width(), mean.height(), 3)?;
         let mut moved = 0usize;
         for ((value, &centre), &width) in
             output.image.data_mut().iter_mut().zip(mean.data()).zip(widths.data())

@@ -31,16 +31,21 @@ mod entry;
 mod error;
 mod guarded;
 mod input;
+mod interval;
 mod mc;
 mod output;
 mod registry;
 mod timer;
 
+#[cfg(test)]
+mod tests;
+
 pub use card::{Citation, Claim, Claims, MethodCard, Need};
-pub use entry::{BuildError, Entry, ParamDoc, build_with, params_from};
+pub use entry::{Build, BuildError, Entry, ParamDoc, build_with, params_from};
 pub use error::DenoiseError;
 pub use guarded::Guarded;
 pub use input::{Diagnostics, Input};
+pub use interval::half_widths;
 pub use mc::{MC_ENTRY, MonteCarlo};
 pub use output::{Bound, Output, StageSeconds};
 pub use registry::{Method, Registry};

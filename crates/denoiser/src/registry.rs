@@ -53,8 +53,8 @@ impl Registry {
     pub fn build(&self, id: &str, overrides: &Map<String, Value>) -> Result<Method, BuildError> {
         if let Some(inner) = id.strip_prefix("guarded(").and_then(|rest| rest.strip_suffix(')')) {
             let mut rest = overrides.clone();
-            let level = rest.remove("guard_level");
-            let inner = self.build(inner, &rest)?;
+            let level = rest.remove(Guarded::PARAM.name);
+            let inner = self.build(inner, &rest).map_err(offer_guard_level)?;
             return Guarded::from_parts(id, inner, level);
         }
         let Some(entry) = self.entries.iter().find(|e| e.id == id) else {
@@ -67,5 +67,19 @@ impl Registry {
             params[name] = value.clone();
         }
         Ok(Method { id: id.into(), params, denoiser })
+    }
+}
+
+/// Adds the combinator's own parameter to the names offered for one that the inner method does not know.
+fn offer_guard_level(error: BuildError) -> BuildError {
+    match error {
+        BuildError::UnknownParameter { method, parameter, mut nearest } => {
+            let own = format!("{} ({})", Guarded::PARAM.name, Guarded::PARAM.range);
+            if !nearest.contains(&own) {
+                nearest.push(own);
+            }
+            BuildError::UnknownParameter { method, parameter, nearest }
+        }
+        other => other,
     }
 }
