@@ -40,7 +40,6 @@ pub fn default_cache() -> PathBuf {
 }
 
 /// Peak resident memory of this process in bytes, where the platform tells (Linux).
-#[must_use]
 pub fn measured_peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

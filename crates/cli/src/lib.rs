@@ -20,8 +20,6 @@ use std::process::ExitCode;
 use clap::Parser;
 use noisefloor_denoiser::Entry;
 
-pub use context::{measured_peak_memory, rows_for_folders};
-
 /// Runs the command with the built-in methods and `extra` ones, on the arguments of the process.
 ///
 /// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage.

@@ -1,5 +1,73 @@
 //! Plain text tables, columns aligned by character count.
 
+use noisefloor_harness::summary::{Interval, Summary};
+
+/// The short table that ends a run: the primary metric of every row at the top level of every scene.
+pub fn summary_table(summary: &Summary) -> String {
+    let metric = &summary.study.primary_metric;
+    let name = summary.study.metrics.iter().find(|m| m.id == *metric).map_or(metric.as_str(), |m| &m.name);
+    let mut out = String::new();
+    for warning in &summary.warnings {
+        out.push_str(&format!("! {warning}\n"));
+    }
+    for scene in &summary.scenes {
+        let levels = summary.cells.iter().filter(|c| c.scene == scene.id).map(|c| c.spp);
+        let (Some(low), Some(top)) = (levels.clone().min(), levels.max()) else { continue };
+        out.push_str(&format!(
+            "\n{}, {}×{}, reference {} samples per pixel ({:.0} × the top level)\n",
+            scene.id, scene.width, scene.height, scene.reference.spp, scene.reference.ratio_to_top
+        ));
+        let mut rows = vec![vec![
+            "method".to_owned(),
+            format!("{name} at {low}"),
+            "of mc".into(),
+            format!("{name} at {top}"),
+            "of mc".into(),
+            "denoise".into(),
+        ]];
+        for method in &summary.methods {
+            let cell = |spp| {
+                summary.cells.iter().find(|c| c.scene == scene.id && c.spp == spp && c.label == method.label)
+            };
+            let (first, last) = (cell(low), cell(top));
+            if first.is_none() && last.is_none() {
+                rows.push(vec![method.label.clone(), "skipped".into()]);
+                continue;
+            }
+            let value = |c: Option<&noisefloor_harness::summary::CellSummary>, ratio: bool| {
+                let of = c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
+                of.map_or_else(|| "–".into(), |interval| with_interval(interval))
+            };
+            rows.push(vec![
+                method.label.clone(),
+                value(first, false),
+                value(first, true),
+                value(last, false),
+                value(last, true),
+                last.and_then(|c| c.denoise_seconds).map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3)),
+            ]);
+        }
+        out.push_str(&aligned(&rows));
+    }
+    let skipped: Vec<String> = summary
+        .skipped
+        .iter()
+        .map(|s| format!("{} {} on {}: {}", s.status, s.label, s.scene, s.reason))
+        .collect();
+    if !skipped.is_empty() {
+        out.push_str(&format!("\n{}\n", skipped.join("\n")));
+    }
+    out
+}
+
+fn with_interval(interval: &Interval) -> String {
+    match (interval.below, interval.low, interval.high) {
+        (Some(limit), ..) => format!("< {}", number(limit)),
+        (None, Some(low), Some(high)) => format!("{} ± {}", number(interval.value), number(0.5 * (high - low))),
+        _ => number(interval.value),
+    }
+}
+
 /// Aligns rows: the first column to the left, the others to the right.
 pub fn aligned(rows: &[Vec<String>]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);

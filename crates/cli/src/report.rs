@@ -1,0 +1,17 @@
+//! `noisefloor report`.
+
+use anyhow::bail;
+use noisefloor_report::ReportOptions;
+
+use crate::args::Report;
+
+pub fn run(args: &Report) -> anyhow::Result<()> {
+    if !(args.viewer_budget.is_finite() && args.viewer_budget >= 0.0) {
+        bail!("--viewer-budget is {}, expected a size in MB from 0", args.viewer_budget);
+    }
+    let summary = noisefloor_harness::reanalyse(&args.dir, args.recompute)?;
+    let options = ReportOptions { viewer_budget_bytes: (args.viewer_budget * 1e6) as usize };
+    let files = noisefloor_report::write_report(&args.dir, &summary, &options)?;
+    println!("report: {}", files.index.display());
+    Ok(())
+}
