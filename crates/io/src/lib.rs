@@ -17,16 +17,20 @@
 
 mod atomic;
 mod attributes;
+mod check;
 mod decode;
 mod encode;
 mod error;
+mod folder;
 mod layers;
 mod names;
 mod read;
 mod write;
 
 pub use atomic::write_atomically;
+pub use check::{LostFactor, VarianceScaleWarning, check_variance_scale};
 pub use error::IoError;
+pub use folder::{FolderFrame, FrameFolder, scan_scenes};
 pub use read::{
     FileInfo, ReadOptions, read_attributes, read_color, read_frame, read_image, read_info, read_reference,
 };

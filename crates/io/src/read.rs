@@ -113,7 +113,7 @@ pub fn read_color(path: impl AsRef<Path>) -> Result<Image, IoError> {
     let opened = Opened::open(path.as_ref())?;
     let layers = Layers::find(&opened, |layer| *layer == Layer::Color)?;
     match layers.get(&Layer::Color, Statistic::Mean) {
-        Some(channels) => decode_planes(opened, &channels.to_vec()),
+        Some(channels) => decode_planes(opened, channels),
         None => Err(missing(&opened.file, &Layer::Color, Statistic::Mean, "a colour image")),
     }
 }

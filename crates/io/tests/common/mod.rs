@@ -29,7 +29,11 @@ pub fn image(width: usize, height: usize, channels: usize, seed: u32) -> Image {
         z = (z ^ z >> 16).wrapping_mul(0x21F0_AAAD);
         z = (z ^ z >> 15).wrapping_mul(0x735A_2D97);
         z ^= z >> 15;
-        if z % 7 == 0 { f32::from_bits(HARD[(z / 7 % 10) as usize]) } else { f32::from_bits(z & 0xBFFF_FFFF) }
+        if z.is_multiple_of(7) {
+            f32::from_bits(HARD[(z / 7 % 10) as usize])
+        } else {
+            f32::from_bits(z & 0xBFFF_FFFF)
+        }
     })
 }
 
