@@ -246,3 +246,6 @@ fn mesh_problem(mesh: &Mesh) -> Option<String> {
         slender.then(|| format!("triangle {i} has no area"))
     })
 }
+
+#[cfg(test)]
+mod tests;

@@ -16,8 +16,8 @@ const RED: Vec3 = Vec3::new(0.63, 0.065, 0.05);
 const GREEN: Vec3 = Vec3::new(0.14, 0.45, 0.091);
 const LAMP: Vec3 = Vec3::new(17.0, 12.0, 4.0);
 
-/// The box with a mirror ball and a glass ball, both exact spheres. The lamp is twice as wide as the measured one at
-/// a quarter of the radiance, so that the caustic under the glass ball is found by plain path tracing without rare
+/// The box with a mirror ball and a glass ball, both exact spheres. The lamp is four times as large as the measured
+/// one at half the radiance, so that the caustic under the glass ball is found by plain path tracing without rare
 /// bright samples; the camera stands closer than usual, so that the box fills a 4:3 image.
 pub fn cornell() -> Scene {
     let camera = CameraSpec {
@@ -29,7 +29,7 @@ pub fn cornell() -> Scene {
     };
     let mut scene = Scene::empty(ID, "Cornell box, mirror and glass", camera);
     room(&mut scene);
-    let lamp = scene.add_material(Material::emitter("lamp", LAMP / 4.0));
+    let lamp = scene.add_material(Material::emitter("lamp", LAMP / 2.0));
     scene.add_mesh(
         quad(Vec3::new(4.08, 5.478, 1.745), Vec3::new(0.0, 0.0, 2.1), Vec3::new(-2.6, 0.0, 0.0)),
         lamp,

@@ -51,13 +51,14 @@ impl Growth {
         let middle = base + direction * (0.5 * length);
         let tip = middle + end * (0.5 * length);
         let thick = 0.055 * length;
-        self.wood.push(tube(&[base, middle, tip], &[thick, 0.8 * thick, 0.6 * thick], 5));
+        let sides = if depth < 2 { 6 } else { 3 };
+        self.wood.push(tube(&[base, middle, tip], &[thick, 0.8 * thick, 0.6 * thick], sides));
         if depth == self.habit.forks {
             self.foliage(base, middle, tip, end);
             return;
         }
         for child in 0..3 {
-            let from = if child == 0 { tip } else { middle.lerp(tip, self.placement.range(0.0, 1.0)) };
+            let from = if child == 0 { tip } else { base.lerp(tip, self.placement.range(0.35, 1.0)) };
             let out = self.around(end, self.habit.spread);
             let shorter = length * self.placement.range(0.58, 0.78);
             self.grow(from, out, shorter, depth + 1);

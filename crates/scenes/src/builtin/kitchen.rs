@@ -63,8 +63,8 @@ pub fn bread() -> (Mesh, Mesh) {
             let (s, c) = (std::f32::consts::TAU * i as f32 / steps as f32).sin_cos();
             // A square with round corners, bulging over its shoulders.
             let r = (s.powi(4) + c.powi(4)).powf(-0.25);
-            let shoulder = if s > 0.0 { 1.0 } else { 0.9 };
-            Vec2::new(r * c * shoulder, r * s * if s > 0.0 { 1.0 - 0.08 * c * c } else { 1.0 })
+            let shoulder = 0.95 + 0.05 * (4.0 * s).clamp(-1.0, 1.0);
+            Vec2::new(r * c * shoulder, r * s)
         })
         .collect();
     let (faces, crust) = slab(&outline, 1.0);

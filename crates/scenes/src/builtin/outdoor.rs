@@ -15,30 +15,31 @@ use crate::{CameraSpec, Material, MaterialIndex, Mesh, Scene, Sky, Sun};
 pub const ID: &str = "outdoor";
 
 /// Depth of the roof over the wall, its height, and how far the pergola reaches.
-const ROOF: f32 = 1.9;
+const ROOF: f32 = 1.2;
 const HEIGHT: f32 = 2.9;
-const PERGOLA: f32 = 3.7;
-/// Half the width of the courtyard, and where its far wall is, behind the camera.
+const PERGOLA: f32 = 2.9;
+/// Half the width of the courtyard, where its tiles end, and where its far wall is, behind the camera.
 const HALF: f32 = 4.5;
+const TERRACE: f32 = 4.62;
 const FAR: f32 = 11.0;
 
 pub fn outdoor() -> Scene {
     let camera = CameraSpec {
-        eye: Vec3::new(0.6, 1.55, 6.6),
-        target: Vec3::new(-0.05, 1.12, 0.0),
+        eye: Vec3::new(0.9, 1.6, 8.0),
+        target: Vec3::new(-0.05, 1.17, 0.0),
         up: Vec3::Y,
-        vertical_fov_degrees: 38.0,
+        vertical_fov_degrees: 36.0,
         lens: None,
     };
     let mut scene = Scene::empty(ID, "Courtyard, shade and foliage", camera);
     scene.sun = Some(Sun {
-        direction: Vec3::new(0.34, 0.8, -0.5).normalize(),
+        direction: Vec3::new(0.3, 0.85, -0.43).normalize(),
         half_angle_degrees: 0.27,
-        irradiance: Vec3::new(15.0, 13.6, 11.6),
+        irradiance: Vec3::new(15.0, 13.7, 11.6),
     });
     scene.sky = Some(Sky::Gradient {
-        horizon: Vec3::new(0.62, 0.72, 0.85),
-        zenith: Vec3::new(0.16, 0.3, 0.62),
+        horizon: Vec3::new(1.2, 1.4, 1.65),
+        zenith: Vec3::new(0.45, 0.8, 1.5),
         ground: Vec3::new(0.2, 0.17, 0.14),
     });
     walls(&mut scene);
@@ -61,12 +62,12 @@ pub fn outdoor() -> Scene {
 
 /// Ground and the four walls.
 fn walls(scene: &mut Scene) {
-    let ground = scene.add_material(Material::diffuse(
+    let terrace = scene.add_material(Material::diffuse(
         "terracotta tiles",
         Texture::Tiles(Tiles {
             size: Vec2::splat(0.42),
             joint: 0.014,
-            colors: [Vec3::new(0.46, 0.26, 0.16), Vec3::new(0.6, 0.41, 0.28)],
+            colors: [Vec3::new(0.42, 0.24, 0.15), Vec3::new(0.56, 0.38, 0.26)],
             clouding: 0.35,
             grout: Vec3::new(0.4, 0.37, 0.33),
             seed: 31,
@@ -87,14 +88,25 @@ fn walls(scene: &mut Scene) {
         Texture::Clouds(Clouds {
             frequency: Vec2::splat(1.5),
             octaves: 3,
-            a: Vec3::new(0.62, 0.54, 0.42),
-            b: Vec3::new(0.8, 0.74, 0.63),
+            a: Vec3::new(0.7, 0.64, 0.54),
+            b: Vec3::new(0.85, 0.81, 0.73),
             seed: 33,
+        }),
+    ));
+    let gravel = scene.add_material(Material::diffuse(
+        "gravel",
+        Texture::Clouds(Clouds {
+            frequency: Vec2::splat(25.0),
+            octaves: 2,
+            a: Vec3::new(0.55, 0.51, 0.44),
+            b: Vec3::new(0.8, 0.77, 0.7),
+            seed: 36,
         }),
     ));
     let width = Vec3::X * (2.0 * HALF);
     let corner = Vec3::new(-HALF, 0.0, 0.0);
-    scene.add_mesh(quad(corner + Vec3::Z * FAR, width, Vec3::Z * -FAR), ground);
+    scene.add_mesh(quad(corner + Vec3::Z * TERRACE, width, Vec3::Z * -TERRACE), terrace);
+    scene.add_mesh(quad(corner + Vec3::Z * FAR, width, Vec3::Z * (TERRACE - FAR)), gravel);
     scene.add_mesh(quad(corner, width, Vec3::Y * 3.6), brick);
     scene.add_mesh(quad(corner + Vec3::Z * FAR, Vec3::Z * -FAR, Vec3::Y * 3.0), plaster);
     scene.add_mesh(quad(corner + width, Vec3::Z * FAR, Vec3::Y * 3.0), plaster);
@@ -175,7 +187,11 @@ fn furniture(scene: &mut Scene, timber: MaterialIndex) {
         cuboid(Vec3::new(-0.05, 0.0, 0.0), Vec3::new(1.45, 0.08, 0.4)),
     ]);
     scene.add_mesh(frame, stone);
-    scene.add_mesh(beam(Vec3::new(0.26, 0.08, 0.0), Vec3::new(1.14, 2.06, 0.03)), door);
+    let mut leaf = vec![beam(Vec3::new(0.26, 0.08, 0.0), Vec3::new(1.14, 2.06, 0.03))];
+    for y in [0.3, 1.05, 1.75] {
+        leaf.push(beam(Vec3::new(0.28, y, 0.03), Vec3::new(1.12, y + 0.13, 0.05)));
+    }
+    scene.add_mesh(Mesh::joined(leaf), door);
 
     let mut bench = vec![];
     for i in 0..4 {
@@ -215,11 +231,11 @@ fn plants(scene: &mut Scene) {
     let soil = scene.add_material(Material::diffuse("soil", Vec3::new(0.06, 0.045, 0.03)));
 
     let round =
-        Habit { branch: 0.5, forks: 4, spread: 48.0, leaves: 13, leaf: Vec2::new(0.085, 0.042), seed: 61 };
+        Habit { branch: 0.53, forks: 4, spread: 50.0, leaves: 15, leaf: Vec2::new(0.095, 0.05), seed: 65 };
     let loose =
-        Habit { branch: 0.6, forks: 4, spread: 38.0, leaves: 13, leaf: Vec2::new(0.1, 0.02), seed: 62 };
+        Habit { branch: 0.64, forks: 4, spread: 42.0, leaves: 15, leaf: Vec2::new(0.11, 0.022), seed: 62 };
     for (at, habit, leaf) in
-        [(Vec3::new(-2.0, 0.0, 1.15), loose, olive), (Vec3::new(1.95, 0.0, 1.3), round, laurel)]
+        [(Vec3::new(-1.95, 0.0, 1.25), loose, olive), (Vec3::new(1.98, 0.0, 1.4), round, laurel)]
     {
         let (pot, earth) = garden::pot();
         let (wood, leaves) = garden::shrub(habit);

@@ -14,12 +14,12 @@ use crate::{CameraSpec, Lens, Material, Mesh, Scene};
 pub const ID: &str = "toaster";
 
 pub fn toaster() -> Scene {
-    let (eye, target) = (Vec3::new(1.3, 3.9, 12.5), Vec3::new(0.25, 1.2, 4.0));
+    let (eye, target) = (Vec3::new(1.3, 4.2, 12.7), Vec3::new(0.3, 0.95, 4.2));
     let camera = CameraSpec {
         eye,
         target,
         up: Vec3::Y,
-        vertical_fov_degrees: 31.0,
+        vertical_fov_degrees: 33.0,
         // In focus is the toaster's near corner; f/1.4 for a lens of 7 cm.
         lens: Some(Lens { radius: 0.25, focus_distance: 8.2 }),
     };
@@ -49,8 +49,8 @@ fn room(scene: &mut Scene) {
     let tiles = scene.add_material(Material::diffuse(
         "glazed tiles",
         Texture::Tiles(Tiles {
-            size: Vec2::new(1.5, 0.75),
-            joint: 0.05,
+            size: Vec2::splat(1.0),
+            joint: 0.06,
             colors: [Vec3::new(0.3, 0.47, 0.46), Vec3::new(0.62, 0.72, 0.66)],
             clouding: 0.2,
             grout: Vec3::splat(0.72),
@@ -72,9 +72,9 @@ fn room(scene: &mut Scene) {
 
 /// A window to the left and a lamp over the camera's shoulder.
 fn lights(scene: &mut Scene) {
-    let window = scene.add_material(Material::emitter("window", Vec3::new(5.2, 5.9, 6.8)));
+    let window = scene.add_material(Material::emitter("window", Vec3::new(7.2, 8.1, 9.2)));
     scene.add_mesh(quad(Vec3::new(-13.9, 2.5, 11.5), Vec3::Z * -8.5, Vec3::Y * 9.0), window);
-    let lamp = scene.add_material(Material::emitter("lamp", Vec3::new(9.0, 7.4, 5.0)));
+    let lamp = scene.add_material(Material::emitter("lamp", Vec3::new(11.5, 9.5, 6.6)));
     scene.add_mesh(quad(Vec3::new(2.5, 15.5, 8.0), Vec3::X * 7.0, Vec3::Z * 5.0), lamp);
 }
 
@@ -107,7 +107,7 @@ fn place_toaster(scene: &mut Scene) {
         scene.add_mesh(rim.transformed(place * lift), crust);
     }
     // Two slices on a plate, nearer to the camera and out of focus.
-    let plate_at = Vec3::new(2.75, 0.0, 7.0);
+    let plate_at = Vec3::new(2.55, 0.0, 6.7);
     for (turn, lean, lift) in [(20.0f32, -88.0f32, 0.17), (-35.0, -80.0, 0.36)] {
         let down = Affine3A::from_translation(plate_at + Vec3::Y * lift)
             * Affine3A::from_rotation_y(turn.to_radians())
@@ -167,12 +167,12 @@ fn breakfast(scene: &mut Scene) {
     scene.add_mesh(place(drink), coffee);
 
     let peel = scene.add_material(Material::diffuse("orange", Vec3::new(0.82, 0.3, 0.03)));
-    scene.add_sphere(Vec3::new(-1.55, 0.42, 7.3), 0.42, peel);
-    scene.add_sphere(Vec3::new(-0.75, 0.38, 7.85), 0.38, peel);
+    scene.add_sphere(Vec3::new(-1.3, 0.42, 6.9), 0.42, peel);
+    scene.add_sphere(Vec3::new(-0.55, 0.38, 7.3), 0.38, peel);
 
     let blade = scene.add_material(Material::conductor("knife", Vec3::new(0.7, 0.7, 0.71), 0.08));
     let handle = scene.add_material(Material::diffuse("handle", Vec3::new(0.09, 0.04, 0.02)));
-    let lie = |mesh: Mesh| mesh.turned(38.0).translated(Vec3::new(0.85, 0.04, 7.6));
+    let lie = |mesh: Mesh| mesh.turned(52.0).translated(Vec3::new(1.0, 0.05, 6.75));
     scene.add_mesh(lie(rounded_box(Vec3::new(0.85, 0.012, 0.13), 0.011, 1)), blade);
     let grip = rounded_box(Vec3::new(0.5, 0.06, 0.1), 0.05, 2).translated(Vec3::X * -1.3);
     scene.add_mesh(lie(grip), handle);
@@ -212,8 +212,8 @@ fn background(scene: &mut Scene) {
             seed: 2,
         }),
     ));
-    let (pot, earth, leaves) = kitchen::herbs(90);
-    let at = Vec3::new(1.05, 0.0, 1.1);
+    let (pot, earth, leaves) = kitchen::herbs(110);
+    let at = Vec3::new(1.5, 0.0, 1.0);
     scene.add_mesh(pot.translated(at), terracotta);
     scene.add_mesh(earth.translated(at), soil);
     scene.add_mesh(leaves.translated(at), basil);
