@@ -238,12 +238,6 @@ impl Lights {
         }
         sum
     }
-
-    /// Whether there is anything to sample.
-    #[inline]
-    pub fn is_empty(&self) -> bool {
-        self.lights.is_empty()
-    }
 }
 
 /// Squared relative distance from a sphere's centre within which the sphere is left to the directions that surfaces

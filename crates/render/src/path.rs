@@ -8,7 +8,7 @@ use crate::lights::LightSample;
 use crate::math::power_heuristic;
 use crate::prepare::Prepared;
 use crate::sampler::Sampler;
-use crate::surface::NONE;
+use crate::surface::{Geometry, Interaction};
 
 /// Edges before Russian roulette starts.
 const SURE_EDGES: u32 = 3;
@@ -88,15 +88,8 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
         let geometry = &scene.geometry[hit.primitive as usize];
         let at = geometry.interact(&ray, &hit, &scene.attributes);
         let surface = &scene.surfaces[geometry.material as usize];
-        if surface.emits && at.front {
-            let weight = match previous {
-                Some((density, _)) if geometry.light != NONE => {
-                    let cos = ray.direction.dot(at.geometric);
-                    power_heuristic(density, scene.lights.density(geometry.light, ray.origin, hit.t, cos))
-                }
-                _ => 1.0,
-            };
-            out.color += throughput * surface.emission * weight;
+        if surface.emits {
+            out.color += throughput * emission(scene, geometry, &at, &ray, hit.t, previous);
         }
         let event = surface.scatter.at(at.uv);
         if FEATURES && edge == 1 {
@@ -144,15 +137,13 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             break;
         }
         let u = sampler.group(2 * edge - 1);
-        if let Some(light) = scene.lights.sample(at.point, at.normal, u) {
+        // From where the shadow ray starts: a light's rim seen from beside it is another rim.
+        let origin = at.leave(at.geometric);
+        if let Some(light) = scene.lights.sample(origin, at.normal, u) {
             let (value, density) = lobe.eval(&at, to_viewer, light.direction);
             if density > 0.0 {
-                let blocked = scene.bvh.occluded(
-                    &Ray { origin: at.leave(light.direction), direction: light.direction },
-                    reach(&light),
-                    stack,
-                );
-                if !blocked {
+                let shadow = Ray { origin, direction: light.direction };
+                if !scene.bvh.occluded(&shadow, reach(&light), stack) {
                     let weight = power_heuristic(light.density, density) / light.density;
                     out.color += throughput * value * light.radiance * weight;
                     if FEATURES && edge == 1 {
@@ -183,6 +174,26 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
     out
 }
 
+/// Radiance of a hit towards the viewer, weighted against light sampling if that competed.
+#[inline(always)]
+fn emission(
+    scene: &Prepared,
+    geometry: &Geometry,
+    at: &Interaction,
+    ray: &Ray,
+    t: f32,
+    previous: Option<(f32, Vec3A)>,
+) -> Vec3A {
+    if !at.front {
+        return Vec3A::ZERO;
+    }
+    let weight = previous.map_or(1.0, |(density, _)| {
+        let cos = ray.direction.dot(at.geometric);
+        power_heuristic(density, scene.lights.density(geometry.light, ray.origin, t, cos))
+    });
+    scene.surfaces[geometry.material as usize].emission * weight
+}
+
 /// A shadow ray stops short of its light by more than the rounding of its length.
 #[inline(always)]
 fn reach(light: &LightSample) -> f32 {
@@ -197,10 +208,148 @@ fn survives(throughput: &mut Vec3A, squared_index: f32, edge: u32, u: f32) -> bo
     if edge < SURE_EDGES {
         return brightest > 0.0;
     }
-    let chance = brightest.min(0.95);
+    let chance = brightest.min(1.0);
     if u >= chance {
         return false;
     }
     *throughput *= 1.0 / chance; // chance > u ≥ 0
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sampler::Independent;
+    use glam::Vec3;
+    use noisefloor_frame::Moments;
+    use noisefloor_scenes::{CameraSpec, Color, Material, Mesh, Scattering, Scene, Sky, Sphere, Sun};
+
+    /// Every kind of light over a point at the origin with normal +Y.
+    fn scene(kind: &str) -> Prepared {
+        let material = |emission: f32| Material {
+            name: "m".into(),
+            scattering: Scattering::Diffuse { albedo: Color::Constant(Vec3::ZERO) },
+            emission: Vec3::splat(emission),
+        };
+        let mut scene = Scene {
+            id: "test",
+            title: "",
+            camera: CameraSpec {
+                eye: Vec3::ONE,
+                target: Vec3::ZERO,
+                up: Vec3::Y,
+                vertical_fov_degrees: 30.0,
+                lens: None,
+            },
+            materials: vec![material(0.0), material(3.0)],
+            meshes: vec![],
+            spheres: vec![Sphere { center: Vec3::new(-3.0, 0.0, 0.0), radius: 0.5, material: 0 }],
+            sun: None,
+            sky: None,
+        };
+        match kind {
+            "triangle" => scene.meshes.push(Mesh {
+                positions: vec![
+                    Vec3::new(-1.0, 1.0, -0.5),
+                    Vec3::new(1.0, 1.2, -0.5),
+                    Vec3::new(0.3, 1.4, 1.0),
+                ],
+                triangles: vec![[0, 1, 2]],
+                material: 1,
+                ..Mesh::default()
+            }),
+            "sphere" => {
+                scene.spheres.push(Sphere { center: Vec3::new(0.3, 1.5, 1.0), radius: 0.6, material: 1 })
+            }
+            "sun" => {
+                let irradiance = Vec3::splat(2.0);
+                scene.sun =
+                    Some(Sun { direction: Vec3::new(0.6, 0.8, 0.0), half_angle_degrees: 9.0, irradiance });
+            }
+            _ => {
+                scene.sky =
+                    Some(Sky::Gradient { horizon: Vec3::ONE, zenith: Vec3::splat(4.0), ground: Vec3::ZERO });
+            }
+        }
+        Prepared::new(&scene).unwrap()
+    }
+
+    /// Radiance scattered once towards `viewer`, with light samples only, scattered samples only, or both.
+    fn estimate(scene: &Prepared, lobe: Lobe, viewer: Vec3A, strategy: &str) -> Moments<1> {
+        let at = Interaction {
+            point: Vec3A::ZERO,
+            geometric: Vec3A::Y,
+            normal: Vec3A::Y,
+            front: true,
+            uv: glam::Vec2::ZERO,
+            clearance: 1e-4,
+        };
+        let mut stack = scene.bvh.stack();
+        let mut moments = Moments::default();
+        for k in 0..60_000 {
+            let sampler = Independent::new(strategy.len() as u64, k);
+            let mut sum = 0.0;
+            if strategy != "scattered"
+                && let Some(light) = scene.lights.sample(at.leave(Vec3A::Y), at.normal, sampler.group(0))
+            {
+                let (value, density) = lobe.eval(&at, viewer, light.direction);
+                let ray = Ray { origin: at.leave(light.direction), direction: light.direction };
+                if density > 0.0 && !scene.bvh.occluded(&ray, reach(&light), &mut stack) {
+                    let weight =
+                        if strategy == "both" { power_heuristic(light.density, density) } else { 1.0 };
+                    sum += (value * light.radiance).x / light.density * weight;
+                }
+            }
+            let u = sampler.group(1);
+            if strategy != "light"
+                && let Some(s) = lobe.sample(&at, viewer, u[0], u[1])
+            {
+                let ray = Ray { origin: at.leave(s.direction), direction: s.direction };
+                let previous = (strategy == "both").then_some((s.density, at.normal));
+                sum += s.weight.x * arriving(scene, &ray, previous, &mut stack).x;
+            }
+            moments.push([f64::from(sum)]);
+        }
+        moments
+    }
+
+    fn arriving(scene: &Prepared, ray: &Ray, previous: Option<(f32, Vec3A)>, stack: &mut Stack) -> Vec3A {
+        let Some(hit) = scene.bvh.closest(ray, f32::INFINITY, stack) else {
+            return scene.lights.background(ray.direction, previous);
+        };
+        let geometry = &scene.geometry[hit.primitive as usize];
+        let at = geometry.interact(ray, &hit, &scene.attributes);
+        emission(scene, geometry, &at, ray, hit.t, previous)
+    }
+
+    #[test]
+    fn light_samples_scattered_samples_and_both_agree() {
+        let viewer = Vec3A::new(0.5, 0.7, -0.2).normalize();
+        let lobes = [
+            Lobe::Diffuse { albedo: Vec3A::splat(0.7) },
+            Lobe::Conductor { f0: Vec3A::splat(0.8), alpha: 0.6 },
+        ];
+        for kind in ["triangle", "sphere", "sun", "sky"] {
+            for lobe in lobes {
+                let scene = scene(kind);
+                let by = |strategy| {
+                    let m = estimate(&scene, lobe, viewer, strategy);
+                    (m.mean()[0], m.mean_variance().unwrap()[0])
+                };
+                let both = by("both");
+                assert!(both.0 > 0.0);
+                for strategy in ["light", "scattered"] {
+                    let single = by(strategy);
+                    let error = (both.1 + single.1).sqrt();
+                    assert!(error < 0.05 * both.0, "{kind} {strategy}: too noisy to tell");
+                    assert!(
+                        (both.0 - single.0).abs() < 4.5 * error,
+                        "{kind} {lobe:?} {strategy}: {} against {} ± {error}",
+                        single.0,
+                        both.0
+                    );
+                }
+            }
+        }
+    }
 }

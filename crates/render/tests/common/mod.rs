@@ -106,3 +106,22 @@ pub fn with_sun(mut scene: Scene, direction: Vec3, half_angle_degrees: f32, irra
     });
     scene
 }
+
+/// Mean and standard error of one channel over all pixels, which are independent estimates of the same value.
+pub fn average(frame: &noisefloor_frame::Frame, channel: usize) -> (f64, f64) {
+    let n = frame.pixels() as f64;
+    let mean = frame.color.mean.plane(channel).iter().map(|&v| f64::from(v)).sum::<f64>() / n;
+    let variance = frame.color.variance.as_ref().expect("more than one sample").mean_variance();
+    let sum: f64 = variance.plane(channel).iter().map(|&v| f64::from(v)).sum();
+    (mean, sum.sqrt() / n)
+}
+
+/// Asserts that a frame of independent samples agrees with `truth` within 4.5 standard errors and f32 rounding, and that
+/// the standard error is below `sharp` of the truth, so that the agreement says something.
+pub fn assert_radiance(frame: &noisefloor_frame::Frame, truth: f64, sharp: f64) {
+    for channel in 0..3 {
+        let (mean, error) = average(frame, channel);
+        assert!(error <= sharp * truth, "standard error {error} is no test of {truth}");
+        assert!((mean - truth).abs() <= 4.5 * error + 2e-5 * truth, "{mean} ± {error}, expected {truth}");
+    }
+}
