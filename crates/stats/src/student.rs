@@ -23,6 +23,17 @@ pub fn normal_quantile(level: Level) -> f64 {
     refine(start, tail, |x| normal.sf(x), |x| statrs::distribution::Continuous::pdf(&normal, x))
 }
 
+/// Probability that Student's t with `degrees` ≥ 1 degrees of freedom exceeds `statistic` in absolute value; 0 for an infinite one.
+#[must_use]
+pub fn t_two_sided_p(statistic: f64, degrees: u64) -> f64 {
+    if statistic.is_infinite() {
+        return 0.0;
+    }
+    let t = StudentsT::new(0.0, 1.0, degrees.max(1) as f64)
+        .expect("location 0, scale 1, at least one degree of freedom");
+    (2.0 * t.sf(statistic.abs())).min(1.0)
+}
+
 fn refine(mut x: f64, tail: f64, sf: impl Fn(f64) -> f64, pdf: impl Fn(f64) -> f64) -> f64 {
     for _ in 0..4 {
         let density = pdf(x);
@@ -93,6 +104,18 @@ mod tests {
         // One degree of freedom is the Cauchy distribution: tan(π(½−α/2)).
         let exact = (std::f64::consts::PI * (0.5 - 0.025)).tan();
         assert!((t_quantile(Level::TWO_SIDED_95, 1) - exact).abs() < 1e-9 * exact);
+    }
+
+    #[test]
+    fn p_values_invert_the_critical_values() {
+        for (level, degrees) in
+            [(Level::TWO_SIDED_95, 1), (Level::TWO_SIDED_99, 3), (Level::TWO_SIDED_998, 40)]
+        {
+            let p = t_two_sided_p(-t_quantile(level, degrees), degrees);
+            assert!((p - level.alpha()).abs() < 1e-9, "{p}");
+        }
+        assert_eq!(t_two_sided_p(0.0, 5), 1.0);
+        assert_eq!(t_two_sided_p(f64::NEG_INFINITY, 5), 0.0);
     }
 
     #[test]
