@@ -1,7 +1,46 @@
 //! Study files to plan to cells to records to analysis, resumable at every stage.
 //!
-//! The harness is *handed* the registry and names no method. Everything that a report needs is in the
-//! [`record`]s and the [`summary`]; a report never runs anything.
+//! The harness is *handed* the registry and names no method but the baseline `mc`. Everything that a report needs is in
+//! the [`record`]s and the [`summary`]; a report never runs anything.
+//!
+//! * A [`Study`] is a file: scenes, samples per pixel, replicates, rows of methods, metrics.
+//! * [`run`] plans it, renders or imports its frames, denoises, measures, appends one [`record::Record`] per finished cell,
+//!   and analyses. Called again it continues.
+//! * [`reanalyse`] makes the [`summary::Summary`] again from what a study's folder keeps.
 
+mod analysis;
+mod cache;
+mod context;
+mod error;
+mod machine;
+mod measure;
+mod metric;
+mod observer;
+mod plan;
+mod reanalyse;
 pub mod record;
+mod run;
+mod source;
+mod store;
+mod study;
 pub mod summary;
+
+pub use analysis::violations;
+pub use error::{HarnessError, Place};
+pub use observer::{Observer, Silent, Stage, Workload};
+pub use reanalyse::reanalyse;
+pub use run::{StudyRun, run};
+pub use study::{
+    BuiltinStudy, Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Study, Timing,
+    builtin_studies,
+};
+
+/// The id of the baseline: the input itself.
+pub const BASELINE: &str = "mc";
+
+/// The three names closest to `given`, closest first.
+fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let mut ranked: Vec<(f64, &str)> = names.map(|n| (strsim::jaro_winkler(given, n), n)).collect();
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
+    ranked.into_iter().take(3).map(|(_, n)| n.to_owned()).collect()
+}

@@ -62,6 +62,10 @@ pub struct Record {
     /// Metric id to standard error within this one image (block bootstrap), only when the study has one replicate.
     #[serde(default)]
     pub metrics_within_se: BTreeMap<String, f64>,
+    /// Metric id to standard error of the logarithm of the ratio to the noisy input's error, within this one image; only when the
+    /// study has one replicate.
+    #[serde(default)]
+    pub ratio_within_se: BTreeMap<String, f64>,
     /// Pixel class to metric id to value.
     #[serde(default)]
     pub classes: BTreeMap<String, BTreeMap<String, Option<f64>>>,
@@ -137,6 +141,9 @@ pub struct CoverageCount {
     pub constant: u64,
     /// Pixel-channels with s = 0 whose mean does not: the event was missed by all samples.
     pub missed: u64,
+    /// Standard error of (covered + constant) / all within this one image, over blocks of about 32×32 pixels.
+    #[serde(default)]
+    pub within_se: Option<f64>,
 }
 
 /// How often |D−μ| exceeded a bound.
@@ -160,6 +167,9 @@ pub struct BoundCount {
     pub violations_missed: u64,
     /// Mean over pixel-channels of |D−μ| / bound, where the bound is positive.
     pub mean_ratio: Option<f64>,
+    /// Standard error of violations / total within this one image, over blocks of about 32×32 pixels.
+    #[serde(default)]
+    pub within_se: Option<f64>,
 }
 
 /// The certain half of the theorem: |D−x̄| never exceeds the half-width.

@@ -1,0 +1,57 @@
+//! Records to summary: means over replicates, intervals, slopes, comparisons, and the sentences a reader must see first.
+
+mod bounds;
+mod cells;
+mod compare;
+mod convergence;
+mod coverage;
+mod index;
+mod number;
+mod scenes;
+mod series;
+mod warnings;
+
+use crate::context::Context;
+use crate::machine;
+use crate::record::Record;
+use crate::study::Study;
+use crate::summary::{Environment, SUMMARY_SCHEMA, StudyInfo, Summary};
+use index::Index;
+
+pub use warnings::violations;
+
+/// Analyses the finished cells of a study, however many there are.
+pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record]) -> Summary {
+    let index = Index::new(study, context, records);
+    let mut summary = Summary {
+        schema: SUMMARY_SCHEMA,
+        study: info(study, context, &index),
+        environment: Environment { date: machine::now(), ..context.environment.clone() },
+        scenes: scenes::scenes(&index, records),
+        methods: context.methods.iter().map(|row| row.summary.clone()).collect(),
+        cells: cells::cells(&index),
+        skipped: index.skipped(),
+        coverage: coverage::coverage(&index),
+        bounds: bounds::bounds(&index),
+        slopes: convergence::slopes(&index),
+        comparisons: compare::comparisons(&index),
+        warnings: Vec::new(),
+    };
+    summary.warnings = warnings::warnings(&index, &summary);
+    summary
+}
+
+fn info(study: &Study, context: &Context, index: &Index<'_>) -> StudyInfo {
+    StudyInfo {
+        name: study.name.clone(),
+        title: study.title.clone(),
+        question: study.question.clone(),
+        analysis: study.analysis.clone(),
+        command: context.command.clone(),
+        primary_metric: study.primary_metric.clone(),
+        metrics: study.metrics.iter().filter_map(|id| crate::metric::info(id)).collect(),
+        spp: index.levels(),
+        viewer_spp: study.viewer_spp.clone(),
+        reproduces: study.reproduces.clone(),
+    }
+}

@@ -1,0 +1,150 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use noisefloor_stats::{
+    self as stats, MonteCarloFit, equal_error_multiplier, monte_carlo_constant, paired_ratio,
+};
+
+use crate::analysis::index::Index;
+use crate::analysis::number::{LEVEL, mean, median, metric, told, value};
+use crate::analysis::series::{by_replicate, reference_se, series};
+use crate::context::{Row, SceneContext};
+use crate::record::Record;
+use crate::summary::{CellSummary, Interval, Source};
+
+/// Averages over replicates, per scene, level and row.
+pub(super) fn cells(index: &Index<'_>) -> Vec<CellSummary> {
+    let mut out = Vec::new();
+    for scene in index.scenes() {
+        let fits = monte_carlo(index, scene);
+        for spp in index.levels_of(scene) {
+            for row in index.rows() {
+                let records = index.records(scene, spp, &row.summary.label);
+                if !records.is_empty() {
+                    out.push(Cell { index, scene, spp, row, records }.summary(&fits));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Metric id to the constant of plain Monte Carlo's error = c/n.
+pub(super) type Fits = BTreeMap<String, MonteCarloFit>;
+
+/// Fits the squared errors of the baseline, whose expectation is exactly c/n if samples are independent.
+pub(super) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
+    let Some(baseline) = index.baseline() else { return Fits::new() };
+    if crate::measure::void(scene.sampling).is_some() {
+        return Fits::new();
+    }
+    let squared = index.study.metrics.iter().filter(|id| crate::metric::order(id) == Some(2));
+    squared
+        .filter_map(|id| {
+            let levels = series(index, scene, &baseline.summary.label, id);
+            Some((id.clone(), monte_carlo_constant(&levels, LEVEL)?))
+        })
+        .collect()
+}
+
+struct Cell<'a> {
+    index: &'a Index<'a>,
+    scene: &'a SceneContext,
+    spp: u32,
+    row: &'a Row,
+    records: &'a [&'a Record],
+}
+
+impl Cell<'_> {
+    fn summary(&self, fits: &Fits) -> CellSummary {
+        let records = self.records;
+        let runs: Vec<f64> = records.iter().flat_map(|r| r.seconds.denoise_runs.iter().copied()).collect();
+        let classes: BTreeSet<&String> = records.iter().flat_map(|r| r.classes.keys()).collect();
+        let multipliers = self.multipliers(fits);
+        CellSummary {
+            scene: self.scene.id.clone(),
+            spp: self.spp,
+            label: self.row.summary.label.clone(),
+            metrics: self.means(None),
+            ratio_to_mc: self.ratios(None),
+            classes: classes.iter().map(|c| ((*c).clone(), self.means(Some(c)))).collect(),
+            class_ratio_to_mc: classes
+                .iter()
+                .map(|c| ((*c).clone(), self.ratios(Some(c))))
+                .filter(|(_, ratios)| !ratios.is_empty())
+                .collect(),
+            denoise_seconds: median(records.iter().filter_map(|r| r.seconds.denoise)),
+            denoise_seconds_range: (!runs.is_empty()).then(|| {
+                [runs.iter().copied().fold(f64::INFINITY, f64::min), runs.iter().copied().fold(0.0, f64::max)]
+            }),
+            render_seconds: median(records.iter().filter_map(|r| r.seconds.render)),
+            equal_error_extrapolated: multipliers.iter().map(|(id, (_, far))| (id.clone(), *far)).collect(),
+            equal_error: multipliers.into_iter().map(|(id, (interval, _))| (id, interval)).collect(),
+            peak_memory_bytes: records.iter().filter_map(|r| r.peak_memory_bytes).max(),
+            enclosure_worst_ratio: records
+                .iter()
+                .flat_map(|r| &r.enclosures)
+                .map(|check| check.worst_ratio)
+                .reduce(f64::max),
+            figures: self.figures(),
+            replicates: records.len() as u32,
+            invalid_input_pixels: records.iter().map(|r| r.non_finite.input_pixels as u64).sum(),
+            non_finite_output: records.iter().map(|r| r.non_finite.output_values as u64).sum(),
+        }
+    }
+
+    fn means(&self, class: Option<&str>) -> BTreeMap<String, Interval> {
+        let floor = &self.scene.reference.floor;
+        let ids = self.index.study.metrics.iter();
+        ids.filter_map(|id| Some((id.clone(), metric(self.records, class, id, floor.get(id).copied())?)))
+            .collect()
+    }
+
+    /// Ratios of errors to the baseline's on the same frames; none for scores, nor where a corrected error is not positive.
+    fn ratios(&self, class: Option<&str>) -> BTreeMap<String, Interval> {
+        let Some(baseline) = self.index.baseline() else { return BTreeMap::new() };
+        let of_baseline = self.index.records(self.scene, self.spp, &baseline.summary.label);
+        let errors = self.index.study.metrics.iter().filter(|id| crate::metric::lower_is_better(id));
+        errors.filter_map(|id| Some((id.clone(), self.ratio(of_baseline, class, id)?))).collect()
+    }
+
+    fn ratio(&self, of_baseline: &[&Record], class: Option<&str>, id: &str) -> Option<Interval> {
+        let own = by_replicate(self.records, class, id);
+        let other = by_replicate(of_baseline, class, id);
+        let common = match class {
+            None => [reference_se(self.records, id), reference_se(of_baseline, id)],
+            Some(_) => [0.0; 2],
+        };
+        let effect = paired_ratio(&own, &other, common, LEVEL)?;
+        let within = match self.records {
+            [only] if class.is_none() => only.ratio_within_se.get(id),
+            _ => None,
+        };
+        match within {
+            Some(&se) if effect.interval.low.is_none() => {
+                let log = stats::Interval::symmetric(effect.interval.value.ln(), se, LEVEL, None, 1);
+                Some(told(log.exp(), Source::WithinImage, None))
+            }
+            _ => Some(told(effect.interval, Source::Replicates, None)),
+        }
+    }
+
+    fn multipliers(&self, fits: &Fits) -> BTreeMap<String, (Interval, bool)> {
+        let top = self.index.levels_of(self.scene).max().unwrap_or(self.spp);
+        fits.iter()
+            .filter_map(|(id, fit)| {
+                let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, id)).collect();
+                let reference = reference_se(self.records, id);
+                let (spp, top) = (f64::from(self.spp), f64::from(top));
+                let multiplier = equal_error_multiplier(fit, spp, &errors, reference, top, LEVEL)?;
+                let interval = told(multiplier.interval, Source::Replicates, None);
+                Some((id.clone(), (interval, multiplier.extrapolated)))
+            })
+            .collect()
+    }
+
+    fn figures(&self) -> BTreeMap<String, f64> {
+        let names: BTreeSet<&String> = self.records.iter().flat_map(|r| r.figures.keys()).collect();
+        let average = |name: &str| mean(self.records.iter().filter_map(|r| r.figures.get(name).copied()));
+        names.into_iter().filter_map(|name| Some((name.clone(), average(name)?))).collect()
+    }
+}

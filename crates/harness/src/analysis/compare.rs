@@ -1,0 +1,75 @@
+use noisefloor_stats::{self as stats, Direction, compare};
+
+use crate::analysis::index::Index;
+use crate::analysis::number::{LEVEL, told};
+use crate::analysis::series::{by_replicate, reference_se};
+use crate::context::SceneContext;
+use crate::study::Family;
+use crate::summary::{Comparison, PairResult, Source};
+
+/// Rows against each other, per scene, level and metric; none where only one row ran.
+pub(super) fn comparisons(index: &Index<'_>) -> Vec<Comparison> {
+    let mut out = Vec::new();
+    for scene in index.scenes() {
+        for spp in index.levels_of(scene) {
+            for metric in &index.study.metrics {
+                out.extend(one(index, scene, spp, metric));
+            }
+        }
+    }
+    out
+}
+
+fn one(index: &Index<'_>, scene: &SceneContext, spp: u32, metric: &str) -> Option<Comparison> {
+    let mut labels = Vec::new();
+    let mut values = Vec::new();
+    let mut noise = Vec::new();
+    for row in index.rows() {
+        let records = index.records(scene, spp, &row.summary.label);
+        let of_row = by_replicate(records, None, metric);
+        if of_row.iter().any(Option::is_some) {
+            labels.push(row.summary.label.clone());
+            values.push(of_row);
+            noise.push(reference_se(records, metric));
+        }
+    }
+    if labels.len() < 2 {
+        return None;
+    }
+    let rows: Vec<stats::Row<'_>> = values
+        .iter()
+        .zip(&noise)
+        .map(|(values, &reference_se)| stats::Row { values, reference_se })
+        .collect();
+    let direction = if crate::metric::lower_is_better(metric) {
+        Direction::LowerIsBetter
+    } else {
+        Direction::HigherIsBetter
+    };
+    let family = match index.study.comparison {
+        Family::AllPairs => stats::Family::AllPairs,
+        Family::WithBest => stats::Family::WithBest,
+    };
+    let found = compare(&rows, direction, family, LEVEL);
+    let named = |indices: &[usize]| indices.iter().map(|&i| labels[i].clone()).collect();
+    Some(Comparison {
+        scene: scene.id.clone(),
+        spp,
+        metric: metric.to_owned(),
+        ranking: named(&found.ranking),
+        best_group: named(&found.best_group),
+        family: index.study.comparison.name().into(),
+        pairs: found
+            .pairs
+            .iter()
+            .map(|pair| PairResult {
+                a: labels[pair.a].clone(),
+                b: labels[pair.b].clone(),
+                effect: told(pair.effect.interval, Source::Replicates, None),
+                is_ratio: pair.effect.is_ratio,
+                p_adjusted: pair.p_adjusted,
+                distinguishable: pair.distinguishable,
+            })
+            .collect(),
+    })
+}

@@ -1,0 +1,34 @@
+use noisefloor_stats::convergence;
+
+use crate::analysis::index::Index;
+use crate::analysis::number::{LEVEL, told};
+use crate::analysis::series::series;
+use crate::summary::{SlopeSummary, Source};
+
+/// Slope and verdict per scene, row and metric that has a rate; none where fewer than two levels have a positive error.
+pub(super) fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
+    let mut out = Vec::new();
+    for scene in index.scenes() {
+        for row in index.rows() {
+            for metric in &index.study.metrics {
+                let Some(order) = crate::metric::order(metric) else { continue };
+                let label = &row.summary.label;
+                let found = convergence(&series(index, scene, label, metric), order, LEVEL);
+                let Some(slope) = found.slope else { continue };
+                out.push(SlopeSummary {
+                    scene: scene.id.clone(),
+                    label: label.clone(),
+                    metric: metric.clone(),
+                    slope: told(slope.interval, Source::Replicates, None),
+                    verdict: found.verdict.name().into(),
+                    sentence: found.sentence,
+                    bias: found
+                        .bias
+                        .filter(|_| found.verdict == noisefloor_stats::Verdict::Plateaus)
+                        .map(|bias| told(bias, Source::Replicates, None)),
+                });
+            }
+        }
+    }
+    out
+}

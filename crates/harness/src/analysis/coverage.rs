@@ -1,0 +1,75 @@
+use crate::analysis::index::Index;
+use crate::analysis::number::rate;
+use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio};
+use crate::context::SceneContext;
+use crate::record::{CoverageCount, Record};
+use crate::summary::CoverageSummary;
+
+/// Why a count against the truth must be read with care, if so.
+pub(super) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
+    let ratio = reference_ratio(scene, spp);
+    if ratio >= LONG_ENOUGH {
+        return None;
+    }
+    Some(if ratio > 0.0 {
+        format!("the reference has only {ratio:.0} times the samples; {LONG_ENOUGH:.0} are assumed")
+    } else {
+        "how many samples the reference has is unknown".into()
+    })
+}
+
+/// Coverage per scene, level, confidence and class, over replicates.
+pub(super) fn coverage(index: &Index<'_>) -> Vec<CoverageSummary> {
+    let Some(baseline) = index.baseline() else { return Vec::new() };
+    let mut out = Vec::new();
+    for scene in index.scenes() {
+        for spp in index.levels_of(scene) {
+            let records = index.records(scene, spp, &baseline.summary.label);
+            // Some replicates may lack a class that has no statistics there; the union over them is shown.
+            let mut kinds: Vec<(f64, &str)> = Vec::new();
+            for count in records.iter().flat_map(|record| &record.coverage) {
+                if !kinds.iter().any(|(c, class)| *c == count.confidence && *class == count.class) {
+                    kinds.push((count.confidence, &count.class));
+                }
+            }
+            for (confidence, class) in kinds {
+                out.extend(one(scene, spp, confidence, class, records));
+            }
+        }
+    }
+    out
+}
+
+fn one(
+    scene: &SceneContext,
+    spp: u32,
+    confidence: f64,
+    class: &str,
+    records: &[&Record],
+) -> Option<CoverageSummary> {
+    let counts: Vec<&CoverageCount> = records
+        .iter()
+        .flat_map(|record| &record.coverage)
+        .filter(|count| count.confidence == confidence && count.class == class)
+        .collect();
+    let all = |c: &CoverageCount| c.total + c.constant + c.missed;
+    let covered: Vec<(u64, u64)> = counts.iter().map(|c| (c.covered + c.constant, all(c))).collect();
+    let uncorrected: Vec<(u64, u64)> =
+        counts.iter().map(|c| (c.covered_uncorrected + c.constant, all(c))).collect();
+    let within = counts.first().and_then(|count| count.within_se);
+    let total: u64 = counts.iter().map(|c| all(c)).sum();
+    let share = |part: fn(&CoverageCount) -> u64| {
+        counts.iter().map(|c| part(c)).sum::<u64>() as f64 / total.max(1) as f64
+    };
+    Some(CoverageSummary {
+        scene: scene.id.clone(),
+        spp,
+        confidence,
+        class: class.to_owned(),
+        covered: rate(&covered, within)?,
+        covered_uncorrected: rate(&uncorrected, within)?,
+        constant: share(|c| c.constant),
+        missed: share(|c| c.missed),
+        mark: mark(scene, spp),
+    })
+}

@@ -1,0 +1,94 @@
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::context::{Context, Row, SceneContext};
+use crate::record::{Outcome, Record};
+use crate::study::Study;
+use crate::summary::Skipped;
+
+/// Finished cells by scene, level and row, in the order of the study.
+pub(super) struct Index<'a> {
+    pub(super) study: &'a Study,
+    pub(super) context: &'a Context,
+    done: BTreeMap<(String, u32, String), Vec<&'a Record>>,
+    ended: Vec<&'a Record>,
+}
+
+impl<'a> Index<'a> {
+    pub(super) fn new(study: &'a Study, context: &'a Context, records: &'a [Record]) -> Self {
+        let mut done: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
+        let mut ended = Vec::new();
+        for record in records {
+            match record.outcome {
+                Outcome::Done => {
+                    let key = (record.scene.clone(), record.spp, record.label.clone());
+                    done.entry(key).or_default().push(record);
+                }
+                _ => ended.push(record),
+            }
+        }
+        for replicates in done.values_mut() {
+            replicates.sort_by_key(|record| record.replicate);
+        }
+        Self { study, context, done, ended }
+    }
+
+    pub(super) fn scenes(&self) -> &'a [SceneContext] {
+        &self.context.scenes
+    }
+
+    pub(super) fn rows(&self) -> &'a [Row] {
+        &self.context.methods
+    }
+
+    /// The row that stands for plain Monte Carlo, if the study has one.
+    pub(super) fn baseline(&self) -> Option<&'a Row> {
+        self.rows().iter().find(|row| row.summary.method == crate::BASELINE)
+    }
+
+    /// All levels of all scenes, ascending.
+    pub(super) fn levels(&self) -> Vec<u32> {
+        let all: BTreeSet<u32> =
+            self.scenes().iter().flat_map(|scene| scene.replicates.keys().copied()).collect();
+        all.into_iter().collect()
+    }
+
+    /// Levels of a scene, ascending.
+    pub(super) fn levels_of(&self, scene: &'a SceneContext) -> impl Iterator<Item = u32> + use<'a> {
+        scene.replicates.keys().copied()
+    }
+
+    /// Replicates that ran, by number; empty if none did.
+    pub(super) fn records(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
+        self.done.get(&(scene.id.clone(), spp, label.to_owned())).map_or(&[], Vec::as_slice)
+    }
+
+    /// Cells that did not run, merged over levels and replicates where the reason is the same.
+    pub(super) fn skipped(&self) -> Vec<Skipped> {
+        let mut out: Vec<Skipped> = Vec::new();
+        for record in &self.ended {
+            let (status, reason) = match &record.outcome {
+                Outcome::Done => continue,
+                Outcome::Skipped { reason } => ("skipped", reason),
+                Outcome::Failed { reason } => ("failed", reason),
+            };
+            let same = |s: &&mut Skipped| {
+                s.scene == record.scene
+                    && s.label == record.label
+                    && s.status == status
+                    && s.reason == *reason
+            };
+            match out.iter_mut().find(same) {
+                Some(entry) if entry.spp.contains(&record.spp) => {}
+                Some(entry) => entry.spp.push(record.spp),
+                None => out.push(Skipped {
+                    scene: record.scene.clone(),
+                    spp: vec![record.spp],
+                    label: record.label.clone(),
+                    status: status.into(),
+                    reason: reason.clone(),
+                }),
+            }
+        }
+        out
+    }
+}

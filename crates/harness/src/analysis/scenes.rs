@@ -1,0 +1,79 @@
+use std::collections::BTreeMap;
+
+use crate::analysis::index::Index;
+use crate::analysis::number::median;
+use crate::context::SceneContext;
+use crate::record::Record;
+use crate::store::Layout;
+use crate::summary::{ReferenceSummary, SceneSummary};
+
+/// Samples of a reference over those of a level below which the coverage correction is doubtful.
+pub(super) const LONG_ENOUGH: f64 = 16.0;
+
+/// Samples of the reference over `spp`; infinite for exact truth, 0 if the reference's count is unknown.
+pub(super) fn reference_ratio(scene: &SceneContext, spp: u32) -> f64 {
+    if scene.reference.exact { f64::INFINITY } else { scene.reference.spp as f64 / f64::from(spp.max(1)) }
+}
+
+pub(super) fn scenes(index: &Index<'_>, records: &[Record]) -> Vec<SceneSummary> {
+    index.scenes().iter().map(|scene| summary(scene, records)).collect()
+}
+
+fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
+    let mine = || records.iter().filter(|record| record.scene == scene.id);
+    let mut images: BTreeMap<String, BTreeMap<u32, String>> = BTreeMap::new();
+    let mut diagnostics: BTreeMap<String, BTreeMap<u32, BTreeMap<String, String>>> = BTreeMap::new();
+    for record in mine().filter(|record| record.replicate == 0) {
+        if let Some(image) = &record.image {
+            images.entry(record.label.clone()).or_default().insert(record.spp, image.clone());
+        }
+        if !record.diagnostics.is_empty() {
+            let of_row = diagnostics.entry(record.label.clone()).or_default();
+            of_row.insert(record.spp, record.diagnostics.clone());
+        }
+    }
+    let mut render_seconds = BTreeMap::new();
+    for &spp in scene.replicates.keys() {
+        // All rows of a frame carry the same time; one per replicate is enough.
+        let mut of_frame = BTreeMap::new();
+        for record in mine().filter(|record| record.spp == spp) {
+            if let Some(seconds) = record.seconds.render {
+                of_frame.insert(record.replicate, seconds);
+            }
+        }
+        if let Some(seconds) = median(of_frame.into_values()) {
+            render_seconds.insert(spp, seconds);
+        }
+    }
+    SceneSummary {
+        id: scene.id.clone(),
+        title: scene.title.clone(),
+        about: scene.about.clone(),
+        width: scene.width as u32,
+        height: scene.height as u32,
+        replicates: scene.replicates.clone(),
+        settings: scene.settings.clone(),
+        reference: reference(scene),
+        classes: scene.classes.iter().filter(|(_, pixels)| *pixels > 0).cloned().collect(),
+        reference_image: Layout::reference(&scene.id),
+        render_seconds,
+        images,
+        diagnostics,
+    }
+}
+
+fn reference(scene: &SceneContext) -> ReferenceSummary {
+    let top = scene.replicates.keys().copied().max().unwrap_or(1);
+    let ratio = reference_ratio(scene, top);
+    ReferenceSummary {
+        spp: scene.reference.spp,
+        parts: scene.reference.parts,
+        sampling: scene.reference.sampling.clone(),
+        correction: scene.reference.correction.clone(),
+        // JSON has no infinity; an exact truth is told by its sampling.
+        ratio_to_top: if ratio.is_finite() { ratio } else { 0.0 },
+        long_enough: ratio >= LONG_ENOUGH,
+        floor: scene.reference.floor.clone(),
+        bias: scene.reference.bias.clone(),
+    }
+}

@@ -1,0 +1,100 @@
+use noisefloor_frame::Sampling;
+
+use crate::analysis::cells::monte_carlo;
+use crate::analysis::index::Index;
+use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio};
+use crate::context::SceneContext;
+use crate::summary::Summary;
+
+/// Standard errors by which a level may differ from plain Monte Carlo's c/n before it is told.
+const DEVIATION: f64 = 5.0;
+
+/// Cells whose output left an interval that it claims never to leave: scene, level, row and the worst ratio. Empty unless a method
+/// is broken or claims too much.
+#[must_use]
+pub fn violations(summary: &Summary) -> Vec<String> {
+    let worst = |cell: &crate::summary::CellSummary| cell.enclosure_worst_ratio.filter(|ratio| *ratio > 1.0);
+    let sentence = |cell: &crate::summary::CellSummary| {
+        let ratio = worst(cell)?;
+        Some(format!(
+            "{} on {} at {} spp left an interval that it claims never to leave, by a factor of {ratio:.4}",
+            cell.label, cell.scene, cell.spp
+        ))
+    };
+    summary.cells.iter().filter_map(sentence).collect()
+}
+
+/// What a reader must see first, most serious first.
+pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
+    let mut out = violations(summary);
+    for entry in summary.skipped.iter().filter(|entry| entry.status == "failed") {
+        let spp: Vec<String> = entry.spp.iter().map(u32::to_string).collect();
+        out.push(format!(
+            "{} failed on {} at {} spp: {}",
+            entry.label,
+            entry.scene,
+            spp.join(", "),
+            entry.reason
+        ));
+    }
+    if index.baseline().is_none() {
+        out.push(
+            "no row is plain Monte Carlo: ratios, equal-error multipliers and coverage are absent".into(),
+        );
+    }
+    for scene in index.scenes() {
+        of_scene(index, scene, summary, &mut out);
+    }
+    if summary.environment.profile == "debug" {
+        out.push("times are of a debug build and say nothing about the methods".into());
+    }
+    out
+}
+
+fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mut Vec<String>) {
+    let id = &scene.id;
+    let top = scene.replicates.keys().copied().max().unwrap_or(1);
+    let ratio = reference_ratio(scene, top);
+    if ratio == 0.0 {
+        out.push(format!(
+            "{id}: how many samples the reference has is unknown; coverage and bounds may be off"
+        ));
+    } else if ratio < LONG_ENOUGH {
+        out.push(format!(
+            "{id}: the reference has only {ratio:.3} times the samples of the {top} spp level; coverage and bounds are marked \
+             where it has less than {LONG_ENOUGH:.0} times"
+        ));
+    }
+    if scene.sampling == Sampling::LowDiscrepancy {
+        out.push(format!(
+            "{id}: coverage and bounds are left out ({})",
+            crate::measure::void(scene.sampling).unwrap_or("")
+        ));
+    }
+    if scene.replicates.values().all(|&n| n == 1) {
+        out.push(format!(
+            "{id}: one replicate per level; intervals are from blocks within the image and say nothing about other random seeds, \
+             and rows cannot be told apart"
+        ));
+    }
+    let cells = || summary.cells.iter().filter(|cell| cell.scene == *id);
+    let invalid = cells().map(|cell| cell.invalid_input_pixels).max().unwrap_or(0);
+    if invalid > 0 {
+        out.push(format!(
+            "{id}: up to {invalid} input pixels per level were not finite and were filled from their neighbours"
+        ));
+    }
+    for cell in cells().filter(|cell| cell.non_finite_output > 0) {
+        out.push(format!(
+            "{} on {id} at {} spp gave {} values that are not finite; their pixels are left out",
+            cell.label, cell.spp, cell.non_finite_output
+        ));
+    }
+    for (metric, fit) in monte_carlo(index, scene) {
+        if let Some(deviation) = fit.worst_deviation.filter(|deviation| *deviation > DEVIATION) {
+            out.push(format!(
+                "{id}: {metric} of plain Monte Carlo deviates from c/n by {deviation:.1} standard errors; multipliers may be off"
+            ));
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! What an analysis must know beside the records; kept in the study's folder.
+
+use std::collections::BTreeMap;
+
+use noisefloor_frame::Sampling;
+use serde::{Deserialize, Serialize};
+
+use crate::cache::Key;
+use crate::summary::{Environment, MethodSummary};
+
+/// The run that made the records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Context {
+    pub(crate) command: String,
+    pub(crate) environment: Environment,
+    pub(crate) methods: Vec<Row>,
+    /// Each kept in a file of its own, from the moment that its cells begin.
+    #[serde(skip)]
+    pub(crate) scenes: Vec<SceneContext>,
+}
+
+/// A row as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Row {
+    pub(crate) summary: MethodSummary,
+    /// Whether its card claims that it converges.
+    pub(crate) consistent: bool,
+}
+
+/// A scene as it was run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct SceneContext {
+    pub(crate) id: String,
+    pub(crate) title: String,
+    pub(crate) about: String,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) sampling: Sampling,
+    pub(crate) settings: BTreeMap<String, String>,
+    pub(crate) replicates: BTreeMap<u32, u32>,
+    /// Pixel classes in the order of the class image's indices, with their pixel counts.
+    pub(crate) classes: Vec<(String, u64)>,
+    pub(crate) reference: ReferenceContext,
+}
+
+/// A reference as it was used.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct ReferenceContext {
+    /// Hash of all that determines it; tells whether the kept files are still the right ones.
+    pub(crate) key: Key,
+    pub(crate) spp: u64,
+    pub(crate) parts: u32,
+    pub(crate) sampling: String,
+    pub(crate) exact: bool,
+    pub(crate) correction: String,
+    pub(crate) floor: BTreeMap<String, f64>,
+    pub(crate) bias: BTreeMap<String, f64>,
+}

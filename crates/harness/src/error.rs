@@ -1,0 +1,168 @@
+use std::fmt;
+use std::path::PathBuf;
+
+use noisefloor_denoiser::BuildError;
+use noisefloor_render::RenderError;
+use noisefloor_scenes::UnknownScene;
+use thiserror::Error;
+
+/// Why a study could not be read, planned, run or analysed.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum HarnessError {
+    /// A study file that is no valid TOML, or has an unknown or missing field.
+    #[error("{place}: {message}")]
+    Syntax {
+        /// File and line.
+        place: Place,
+        /// The parser's message, with the offending line.
+        message: String,
+    },
+    /// A field of a study has a value without meaning.
+    #[error("{place}: {field} is {value}; allowed: {allowed}")]
+    Field {
+        /// File and line.
+        place: Place,
+        /// Field, such as `scene[1].spp`.
+        field: String,
+        /// Value found.
+        value: String,
+        /// Allowed values.
+        allowed: String,
+    },
+    /// No built-in study has this name and no such file or folder exists.
+    #[error("there is no study, file or folder `{name}`; the nearest studies are {}", nearest.join(", "))]
+    UnknownStudy {
+        /// Name given.
+        name: String,
+        /// The closest names that exist.
+        nearest: Vec<String>,
+    },
+    /// A study names a scene that does not exist.
+    #[error("{place}: {source}")]
+    Scene {
+        /// File and line.
+        place: Place,
+        /// Which name, and the nearest ones.
+        source: UnknownScene,
+    },
+    /// A row names a method or parameter that does not exist.
+    #[error("{place}: row `{label}`: {source}")]
+    Method {
+        /// File and line.
+        place: Place,
+        /// Label of the row.
+        label: String,
+        /// What is wrong, with the nearest names.
+        source: BuildError,
+    },
+    /// A folder of frames cannot be used as a scene.
+    #[error("{}: {reason}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        reason: String,
+    },
+    /// The operating system refused something: no space, no permission, no such file.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io {
+        /// What was tried, such as `write`.
+        action: &'static str,
+        /// File or folder.
+        path: PathBuf,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+    /// An image file could not be read or written.
+    #[error(transparent)]
+    Image(#[from] noisefloor_io::IoError),
+    /// A frame could not be rendered.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// Buffers do not fit together.
+    #[error("scene `{scene}`: {source}")]
+    Frame {
+        /// Scene id.
+        scene: String,
+        /// Which buffer.
+        source: noisefloor_frame::FrameError,
+    },
+    /// A reference or its classes cannot be measured against.
+    #[error("scene `{scene}`: {source}")]
+    Metric {
+        /// Scene id.
+        scene: String,
+        /// What does not fit.
+        source: noisefloor_metrics::MetricError,
+    },
+    /// An output does not fit the frame it was made from.
+    #[error("scene `{scene}`: {source}")]
+    Shape {
+        /// Scene id.
+        scene: String,
+        /// What does not fit.
+        source: noisefloor_stats::ShapeError,
+    },
+    /// The study's folder is in use by another process.
+    #[error("{} is in use by another noisefloor process", path.display())]
+    Locked {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The study's folder has results of another study.
+    #[error("{} holds results of study `{found}`, not of `{wanted}`; choose another output folder", path.display())]
+    OtherStudy {
+        /// The folder.
+        path: PathBuf,
+        /// Study found there.
+        found: String,
+        /// Study to be run.
+        wanted: String,
+    },
+    /// A kept file of a study's folder cannot be understood.
+    #[error("{}{}: {message}", path.display(), line.map(|l| format!(", line {l}")).unwrap_or_default())]
+    Kept {
+        /// The file.
+        path: PathBuf,
+        /// Line from 1, where it has lines.
+        line: Option<usize>,
+        /// What is wrong.
+        message: String,
+    },
+    /// The observer asked to stop. Everything finished is kept.
+    #[error("stopped; finished cells are kept, run the same command again to continue")]
+    Cancelled,
+}
+
+impl HarnessError {
+    /// For `map_err`: names the action and the path.
+    pub(crate) fn io(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.into();
+        move |source| Self::Io { action, path, source }
+    }
+
+    /// Whether nothing is wrong but the observer's wish to stop.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        matches!(self, Self::Cancelled | Self::Render(RenderError::Cancelled))
+    }
+}
+
+/// File and line of a message.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Place {
+    /// File, or the name of a built-in study.
+    pub file: String,
+    /// Line from 1, if known.
+    pub line: Option<usize>,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "{}, line {line}", self.file),
+            None => f.write_str(&self.file),
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! The metric table, as a study sees it.
+
+use noisefloor_metrics::METRICS;
+
+use crate::summary::MetricInfo;
+
+/// Ids of all metrics, in the order of display.
+pub(crate) fn ids() -> Vec<String> {
+    METRICS.iter().map(|metric| metric.id.to_owned()).collect()
+}
+
+/// The metric shown first unless a study says otherwise: `relmse` where it is listed.
+pub(crate) fn primary(listed: &[String]) -> String {
+    let preferred = listed.iter().find(|id| *id == "relmse");
+    preferred.or(listed.first()).cloned().unwrap_or_default()
+}
+
+/// How to read a metric.
+pub(crate) fn info(id: &str) -> Option<MetricInfo> {
+    let metric = METRICS.iter().find(|metric| metric.id == id)?;
+    Some(MetricInfo {
+        id: metric.id.into(),
+        name: metric.name.into(),
+        formula: metric.formula_text(),
+        lower_is_better: metric.lower_is_better,
+        unit: metric.unit.into(),
+        reference_noise_removed: metric.reference_noise_removed,
+    })
+}
+
+/// 2 for squared errors, 1 for their roots, `None` where plain Monte Carlo has no fixed rate.
+pub(crate) fn order(id: &str) -> Option<u32> {
+    METRICS.iter().find(|metric| metric.id == id)?.order
+}
+
+/// Whether smaller is better; `false` for an unknown metric.
+pub(crate) fn lower_is_better(id: &str) -> bool {
+    METRICS.iter().any(|metric| metric.id == id && metric.lower_is_better)
+}

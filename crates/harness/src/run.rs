@@ -1,0 +1,218 @@
+//! Plan → frames → denoise → measure → records → analysis.
+
+mod cell;
+mod denoise;
+mod prepare;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use noisefloor_denoiser::Registry;
+
+use crate::analysis::analyse;
+use crate::cache::{Cache, Key, seed_of};
+use crate::context::{Context, Row as RowContext};
+use crate::error::HarnessError;
+use crate::machine;
+use crate::observer::{Observer, Stage, Workload};
+use crate::plan::{Plan, Row};
+use crate::record::{Outcome, Record};
+use crate::source::{FrameSpec, Scene};
+use crate::store::{Layout, Lock, Records, read_json, write_json};
+use crate::study::Study;
+use crate::summary::{MethodSummary, Summary};
+
+/// Resampled images of the block bootstrap.
+pub(crate) const BOOTSTRAP_IMAGES: usize = 400;
+
+/// Random seed of a cell's bootstrap: the same for all rows of a frame, and whenever it is computed again.
+pub(crate) fn bootstrap_seed(record: &Record) -> u64 {
+    seed_of(&serde_json::json!({
+        "purpose": "bootstrap", "scene": record.scene, "spp": record.spp, "replicate": record.replicate
+    }))
+}
+
+/// A study to run, with everything it needs from outside.
+pub struct StudyRun<'a> {
+    /// The study.
+    pub study: &'a Study,
+    /// The methods that rows may name.
+    pub registry: &'a Registry,
+    /// Folder for records, images and summary; made if need be.
+    pub out_dir: &'a Path,
+    /// Folder for rendered frames, shared by all studies; made if need be.
+    pub cache_dir: &'a Path,
+    /// Columns and rows of rendered and synthetic scenes, instead of the study's.
+    pub size: Option<(usize, usize)>,
+    /// Command line, for the report.
+    pub command: String,
+    /// Instruction set that the kernels chose, for the report.
+    pub simd: String,
+    /// Is told how it goes, and may stop it.
+    pub observer: &'a dyn Observer,
+}
+
+impl std::fmt::Debug for StudyRun<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("StudyRun")
+            .field("study", &self.study.name)
+            .field("out_dir", &self.out_dir)
+            .field("cache_dir", &self.cache_dir)
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Runs a study, or continues it: finished cells are kept, the others are run one after the other, each is on disk before
+/// the next begins. Ends with the analysis, written to `summary.json` and returned.
+///
+/// A row whose inputs a frame does not have is skipped, one that ends in an error is failed; both are recorded with the
+/// reason and do not stop the study. A violated enclosure does not stop it either, but is the first of
+/// [`Summary::warnings`], see [`crate::violations`].
+///
+/// # Errors
+/// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`] and [`HarnessError::Folder`] for names that do not exist,
+/// [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and [`HarnessError::Image`] for a
+/// full disk or an unwritable folder, [`HarnessError::Cancelled`]. Finished cells are intact after any of them.
+pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
+    let study = request.study;
+    let plan = Plan::new(study, request.registry, request.size)?;
+    let layout = Layout::new(request.out_dir);
+    let _lock = Lock::take(&layout)?;
+    claim(&layout, study)?;
+    let cache = Cache::open(request.cache_dir)?;
+    let mut records = Records::open(&layout.records())?;
+    let kept = keep_finished(&mut records, &layout, study, &plan, request.observer)?;
+
+    let work = workload(study, &plan, &cache, &layout, &kept);
+    let mut context = begin(request, &plan, &layout, &work)?;
+    request.observer.planned(&work);
+    for scene in &plan.scenes {
+        let runner = cell::Runner { request, plan: &plan, layout: &layout, cache: &cache, scene };
+        context.scenes.push(runner.run(&mut records, &kept)?);
+    }
+    order(&mut records, study, &plan)?;
+
+    request.observer.stage(&Stage::Analysis);
+    let summary = analyse(study, &context, records.all());
+    write_json(&layout.summary(), &summary)?;
+    Ok(summary)
+}
+
+/// Describes machine and rows, on disk before any work. A run that finds everything finished keeps the description of the one
+/// that did the work, because the times are from there.
+fn begin(
+    request: &StudyRun<'_>,
+    plan: &Plan,
+    layout: &Layout,
+    work: &Workload,
+) -> Result<Context, HarnessError> {
+    let earlier: Option<Context> = read_json(&layout.context()).ok();
+    let environment = match earlier {
+        Some(context) if work.cells == 0 => context.environment,
+        _ => machine::environment(&request.simd),
+    };
+    let methods = plan.rows.iter().map(describe).collect();
+    let context = Context { command: request.command.clone(), environment, methods, scenes: Vec::new() };
+    write_json(&layout.context(), &context)?;
+    Ok(context)
+}
+
+/// Refuses a folder that belongs to another study; writes the study into it.
+fn claim(layout: &Layout, study: &Study) -> Result<(), HarnessError> {
+    let path = layout.study();
+    if path.exists() {
+        let found: Study = read_json(&path)?;
+        if found.name != study.name {
+            return Err(HarnessError::OtherStudy {
+                path: layout.root().to_owned(),
+                found: found.name,
+                wanted: study.name.clone(),
+            });
+        }
+    }
+    write_json(&path, study)
+}
+
+/// Keys of the finished cells. Records that the plan does not know any more, or whose image is gone, are dropped.
+fn keep_finished(
+    records: &mut Records,
+    layout: &Layout,
+    study: &Study,
+    plan: &Plan,
+    observer: &dyn Observer,
+) -> Result<BTreeSet<Key>, HarnessError> {
+    let planned: BTreeSet<Key> = cells(study, plan).map(|(_, key)| key).collect();
+    let mut kept = BTreeSet::new();
+    let mut keep = Vec::new();
+    let mut stale = 0;
+    for record in records.all() {
+        let whole =
+            record.image.iter().chain(record.diagnostics.values()).all(|p| layout.root().join(p).exists());
+        // A failure may have been that of another moment, such as too little memory: tried again.
+        let settled = !matches!(record.outcome, Outcome::Failed { .. });
+        if planned.contains(&record.cell) && whole && settled && kept.insert(record.cell.clone()) {
+            keep.push(record.clone());
+        } else {
+            stale += usize::from(!planned.contains(&record.cell));
+        }
+    }
+    if stale > 0 {
+        observer.warning(&format!(
+            "{stale} records are of another version of the study or the program, and are replaced"
+        ));
+    }
+    records.replace(keep)?;
+    Ok(kept)
+}
+
+/// All cells in plan order.
+fn cells<'a>(
+    study: &'a Study,
+    plan: &'a Plan,
+) -> impl Iterator<Item = ((&'a Scene, &'a FrameSpec, &'a Row), Key)> {
+    plan.scenes.iter().flat_map(move |scene| {
+        scene.frames.iter().flat_map(move |frame| {
+            plan.rows.iter().map(move |row| ((scene, frame, row), plan.cell_key(study, scene, frame, row)))
+        })
+    })
+}
+
+fn workload(study: &Study, plan: &Plan, cache: &Cache, layout: &Layout, kept: &BTreeSet<Key>) -> Workload {
+    let mut work = Workload { kept: kept.len() as u64, ..Workload::default() };
+    for scene in &plan.scenes {
+        let open = |frame: &&FrameSpec| {
+            plan.rows.iter().any(|row| !kept.contains(&plan.cell_key(study, scene, frame, row)))
+        };
+        let frames: Vec<&FrameSpec> = scene.frames.iter().filter(open).collect();
+        let reference = !frames.is_empty() || prepare::kept_context(layout, scene).is_none();
+        work.samples += scene.samples(cache, frames.into_iter(), reference);
+    }
+    work.cells = cells(study, plan).filter(|(_, key)| !kept.contains(key)).count() as u64;
+    work
+}
+
+/// Puts the records in plan order, which they leave when cells in the middle are run again.
+fn order(records: &mut Records, study: &Study, plan: &Plan) -> Result<(), HarnessError> {
+    let place: BTreeMap<Key, usize> =
+        cells(study, plan).enumerate().map(|(index, (_, key))| (key, index)).collect();
+    let mut all: Vec<Record> = records.all().to_vec();
+    all.sort_by_key(|record| place.get(&record.cell).copied());
+    records.replace(all)
+}
+
+fn describe(row: &Row) -> RowContext {
+    let card = &row.card;
+    RowContext {
+        summary: MethodSummary {
+            label: row.label.clone(),
+            method: row.method.id.clone(),
+            name: card.name.clone(),
+            citation: card.citation.key.into(),
+            reference: card.citation.text.into(),
+            params: row.method.params.clone(),
+            notes: card.notes.clone(),
+        },
+        consistent: card.claims.consistent,
+    }
+}

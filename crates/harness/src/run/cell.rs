@@ -1,0 +1,190 @@
+//! All cells of one scene.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+
+use noisefloor_denoiser::Output;
+use noisefloor_frame::Frame;
+use noisefloor_metrics::{Measurer, block_bootstrap};
+
+use crate::cache::{Cache, Key};
+use crate::context::SceneContext;
+use crate::error::HarnessError;
+use crate::machine;
+use crate::measure::Measure;
+use crate::observer::Stage;
+use crate::plan::{Plan, Row, wants_diagnostics};
+use crate::record::{NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
+use crate::run::denoise::{Denoised, denoise};
+use crate::run::prepare::{kept_context, truth};
+use crate::run::{BOOTSTRAP_IMAGES, StudyRun, bootstrap_seed};
+use crate::source::{FrameSpec, Scene};
+use crate::store::{Layout, Records};
+
+/// Runs the cells of a scene.
+pub(super) struct Runner<'a> {
+    pub(super) request: &'a StudyRun<'a>,
+    pub(super) plan: &'a Plan,
+    pub(super) layout: &'a Layout,
+    pub(super) cache: &'a Cache,
+    pub(super) scene: &'a Scene,
+}
+
+impl Runner<'_> {
+    /// Runs what is not finished, and describes the scene for the analysis.
+    pub(super) fn run(
+        &self,
+        records: &mut Records,
+        kept: &BTreeSet<Key>,
+    ) -> Result<SceneContext, HarnessError> {
+        let (study, scene) = (self.request.study, self.scene);
+        let open = |frame: &FrameSpec| -> Vec<(&Row, Key)> {
+            let keyed = self.plan.rows.iter().map(|row| (row, self.plan.cell_key(study, scene, frame, row)));
+            keyed.filter(|(_, key)| !kept.contains(key)).collect()
+        };
+        let work: Vec<(&FrameSpec, Vec<(&Row, Key)>)> = scene
+            .frames
+            .iter()
+            .map(|frame| (frame, open(frame)))
+            .filter(|(_, rows)| !rows.is_empty())
+            .collect();
+        if work.is_empty()
+            && let Some(context) = kept_context(self.layout, scene)
+        {
+            return Ok(context);
+        }
+        let (truth, context) = truth(scene, self.cache, self.layout, self.request.observer)?;
+        let measurer = truth.measurer(scene)?;
+        for (spec, rows) in work {
+            self.request.observer.stage(&Stage::Frame {
+                scene: scene.id.clone(),
+                spp: spec.spp,
+                replicate: spec.replicate,
+            });
+            let mut frame = scene.frame(spec, self.cache, self.request.observer)?;
+            let hygiene = frame.sanitize();
+            let non_finite = NonFinite {
+                input_pixels: hygiene.invalid_pixels,
+                negative_variances: hygiene.negative_variances,
+                output_values: 0,
+            };
+            let measure =
+                Measure::new(&frame, &truth.reference, &truth.classes, &hygiene.invalid, scene.single());
+            let cell = Cell { runner: self, measurer: &measurer, measure, spec, frame: &frame };
+            for (row, key) in rows {
+                if self.request.observer.cancelled() {
+                    return Err(HarnessError::Cancelled);
+                }
+                let record = cell.run(row, key, non_finite)?;
+                records.append(record.clone())?;
+                self.request.observer.cell(&record, &record.outcome);
+            }
+        }
+        Ok(context)
+    }
+}
+
+/// One frame against its truth.
+struct Cell<'a> {
+    runner: &'a Runner<'a>,
+    measurer: &'a Measurer<'a>,
+    measure: Measure<'a>,
+    spec: &'a FrameSpec,
+    frame: &'a Frame,
+}
+
+impl Cell<'_> {
+    fn run(&self, row: &Row, key: Key, non_finite: NonFinite) -> Result<Record, HarnessError> {
+        let (study, scene, spec) = (self.runner.request.study, self.runner.scene, self.spec);
+        self.runner.request.observer.stage(&Stage::Denoise {
+            scene: scene.id.clone(),
+            spp: spec.spp,
+            replicate: spec.replicate,
+            label: row.label.clone(),
+        });
+        let mut record = Record {
+            schema: RECORD_SCHEMA,
+            cell: key,
+            study: study.name.clone(),
+            scene: scene.id.clone(),
+            sampling: self.frame.sampling,
+            spp: spec.spp,
+            replicate: spec.replicate,
+            method: row.method.id.clone(),
+            label: row.label.clone(),
+            params: row.method.params.clone(),
+            outcome: Outcome::Done,
+            metrics: BTreeMap::new(),
+            metrics_reference_se: BTreeMap::new(),
+            metrics_within_se: BTreeMap::new(),
+            ratio_within_se: BTreeMap::new(),
+            classes: BTreeMap::new(),
+            coverage: Vec::new(),
+            bounds: Vec::new(),
+            enclosures: Vec::new(),
+            non_finite,
+            figures: BTreeMap::new(),
+            seconds: Seconds {
+                render: self.frame.provenance.render_seconds,
+                threads: rayon::current_num_threads() as u32,
+                ..Seconds::default()
+            },
+            peak_memory_bytes: None,
+            image: None,
+            diagnostics: BTreeMap::new(),
+        };
+        machine::reset_peak_memory();
+        let diagnostics = wants_diagnostics(study, spec).then_some(study.probe);
+        match denoise(row, self.frame, study.timing, diagnostics) {
+            Ok(done) => self.measure(row, done, &mut record)?,
+            Err(outcome) => record.outcome = outcome,
+        }
+        Ok(record)
+    }
+
+    fn measure(&self, row: &Row, done: Denoised, record: &mut Record) -> Result<(), HarnessError> {
+        let (scene, spec) = (self.runner.scene, self.spec);
+        record.peak_memory_bytes = machine::peak_memory();
+        record.seconds.denoise = Some(done.seconds);
+        record.seconds.denoise_runs = done.runs;
+        record.seconds.stages = done.stages;
+        let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
+        let Output { image, figures, .. } = done.output;
+        let measured = self.measurer.measure(&image).map_err(metric)?;
+        record.non_finite.output_values = measured.non_finite_values;
+        record.metrics = measured.values;
+        record.classes = measured.classes;
+        record.metrics_reference_se = measured.reference_se;
+        if scene.single() {
+            record.metrics_within_se =
+                block_bootstrap(self.measurer, &image, BOOTSTRAP_IMAGES, bootstrap_seed(record))
+                    .map_err(metric)?;
+        }
+        record.figures = figures.into_iter().filter(|(_, value)| value.is_finite()).collect();
+        let shape = |source| HarnessError::Shape { scene: scene.id.clone(), source };
+        let measure = &self.measure;
+        if row.method.id == crate::BASELINE {
+            record.coverage = measure.coverage(&self.runner.request.study.coverage).map_err(shape)?;
+        }
+        let claims = &row.card.claims;
+        record.bounds = measure.bounds(&image, &claims.error_bound).map_err(shape)?;
+        record.enclosures = measure.enclosures(&image, &claims.enclosure).map_err(shape)?;
+
+        let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);
+        self.write(&relative, &image)?;
+        record.image = Some(relative);
+        for (name, diagnostic) in &done.diagnostics {
+            let name_of_file: String =
+                name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+            let path = Layout::diagnostic(&scene.id, &row.slug, spec.spp, spec.replicate, &name_of_file);
+            self.write(&path, diagnostic)?;
+            record.diagnostics.insert(name.clone(), path);
+        }
+        Ok(())
+    }
+
+    fn write(&self, relative: &str, image: &noisefloor_frame::Image) -> Result<(), HarnessError> {
+        let path = self.runner.layout.ready(relative)?;
+        Ok(noisefloor_io::write_image(AsRef::<Path>::as_ref(&path), image, &BTreeMap::new())?)
+    }
+}

@@ -1,0 +1,102 @@
+//! One method on one frame, alone: refused, warmed up, timed, checked.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
+
+use noisefloor_denoiser::{DenoiseError, Diagnostics, Input, Output, StageSeconds};
+use noisefloor_frame::{Frame, Image};
+
+use crate::plan::Row;
+use crate::record::Outcome;
+use crate::study::Timing;
+
+/// What a method gave, and how long it took.
+pub(super) struct Denoised {
+    /// Of the first run: all runs give the same bits.
+    pub(super) output: Output,
+    /// Median.
+    pub(super) seconds: f64,
+    /// All timed runs in order.
+    pub(super) runs: Vec<f64>,
+    /// Stages of the run whose time is the median, or next below it.
+    pub(super) stages: Vec<StageSeconds>,
+    /// From a run of its own, which is not timed.
+    pub(super) diagnostics: Vec<(String, Image)>,
+}
+
+/// Runs a row on a sanitised frame. `diagnostics` asks for diagnostic images that probe this pixel, given in fractions of
+/// the image (`Some(None)`: where the method likes).
+pub(super) fn denoise(
+    row: &Row,
+    frame: &Frame,
+    timing: Timing,
+    diagnostics: Option<Option<[f64; 2]>>,
+) -> Result<Denoised, Outcome> {
+    let missing = row.card.missing(frame);
+    if !missing.is_empty() {
+        let error = DenoiseError::MissingInputs { method: row.method.id.clone(), missing };
+        return Err(Outcome::Skipped { reason: error.to_string() });
+    }
+    let input = Input::new(frame);
+    let mut first = None;
+    for _ in 0..timing.warmup {
+        first = Some(once(row, &input)?);
+    }
+    let mut timed = Vec::new();
+    for _ in 0..timing.runs.max(1) {
+        let start = Instant::now();
+        let output = once(row, &input)?;
+        timed.push((start.elapsed().as_secs_f64(), output.stages.clone()));
+        first.get_or_insert(output);
+    }
+    let runs: Vec<f64> = timed.iter().map(|(seconds, _)| *seconds).collect();
+    timed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let middle = timed.len() / 2;
+    let seconds =
+        if timed.len() % 2 == 1 { timed[middle].0 } else { 0.5 * (timed[middle - 1].0 + timed[middle].0) };
+    let stages = timed.swap_remove((timed.len() - 1) / 2).1;
+    let diagnostics = match diagnostics {
+        Some(probe) => {
+            let pixel = |at: f64, size: usize| ((at * size as f64) as usize).min(size - 1); // images are never empty
+            let probe = probe.map(|[x, y]| (pixel(x, frame.width()), pixel(y, frame.height())));
+            once(row, &input.with_diagnostics(Diagnostics::On { probe }))?.diagnostics
+        }
+        None => Vec::new(),
+    };
+    let output = first.ok_or_else(|| Outcome::Failed { reason: "it was never run".into() })?;
+    Ok(Denoised { output, seconds, runs, stages, diagnostics })
+}
+
+/// Runs a method once. Errors and panics of a method end its cell, not the study.
+fn once(row: &Row, input: &Input<'_>) -> Result<Output, Outcome> {
+    let failed = |reason: String| Outcome::Failed { reason };
+    // The method's state is not touched again after a panic unless by another cell, which fails on its own.
+    let output = match catch_unwind(AssertUnwindSafe(|| row.method.denoiser.denoise(input))) {
+        Ok(Ok(output)) => output,
+        Ok(Err(error @ DenoiseError::MissingInputs { .. })) => {
+            return Err(Outcome::Skipped { reason: error.to_string() });
+        }
+        Ok(Err(error)) => return Err(failed(error.to_string())),
+        Err(panic) => {
+            let text = panic
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+            return Err(failed(format!("{} panicked: {}", row.method.id, text.unwrap_or_default())));
+        }
+    };
+    let target = &input.target.color.mean;
+    if !output.image.same_shape(target) {
+        return Err(failed(format!(
+            "{} gave an image of {}×{}×{} for a frame of {}×{}×{}",
+            row.method.id,
+            output.image.width(),
+            output.image.height(),
+            output.image.channels(),
+            target.width(),
+            target.height(),
+            target.channels()
+        )));
+    }
+    Ok(output)
+}

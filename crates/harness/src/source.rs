@@ -1,0 +1,201 @@
+//! Where the frames and the reference of a scene come from: rendered here, drawn from a known law, or imported.
+
+mod classes;
+mod folder;
+mod rendered;
+
+use std::collections::BTreeMap;
+
+use noisefloor_frame::{Frame, Reference, Sampling};
+use noisefloor_render::{Keep, Quantity};
+use noisefloor_synthetic::SyntheticScene;
+use serde_json::json;
+
+use crate::cache::{Cache, Key, key_of, seed_of};
+use crate::error::HarnessError;
+use crate::observer::Observer;
+use crate::study::{SceneSource, SceneSpec, Study};
+
+pub(crate) use classes::PixelClasses;
+use folder::Imported;
+use rendered::Rendered;
+
+/// A noisy frame that the plan asks for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FrameSpec {
+    pub(crate) spp: u32,
+    pub(crate) replicate: u32,
+    pub(crate) seed: u64,
+    /// Hash of all that determines the frame.
+    pub(crate) key: Key,
+}
+
+/// A scene of a study, opened.
+pub(crate) struct Scene {
+    pub(crate) id: String,
+    pub(crate) title: String,
+    pub(crate) about: String,
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    /// Kind of sampling of the noisy frames.
+    pub(crate) sampling: Sampling,
+    pub(crate) settings: BTreeMap<String, String>,
+    pub(crate) frames: Vec<FrameSpec>,
+    /// Hash of all that determines the reference.
+    pub(crate) reference_key: Key,
+    /// Samples per pixel of the reference; 0 if exact or unknown.
+    pub(crate) reference_spp: u64,
+    /// Sampling of the reference, or `exact`.
+    pub(crate) reference_sampling: String,
+    source: Source,
+}
+
+enum Source {
+    Rendered(Box<Rendered>),
+    Synthetic(SyntheticScene),
+    Imported(Imported),
+}
+
+impl Scene {
+    /// Opens a scene: builds it, or looks at the files of its folder. Renders and decodes nothing.
+    pub(crate) fn open(
+        study: &Study,
+        spec: &SceneSpec,
+        size: Option<(usize, usize)>,
+        recorded: &BTreeMap<Quantity, Keep>,
+    ) -> Result<Self, HarnessError> {
+        match &spec.source {
+            SceneSource::Builtin(id) => rendered::open(study, spec, id, size, recorded),
+            SceneSource::Synthetic(scene) => synthetic(study, spec, scene, size),
+            SceneSource::Folder(path) => folder::open(spec, path),
+        }
+    }
+
+    /// Replicates per level.
+    pub(crate) fn replicates(&self) -> BTreeMap<u32, u32> {
+        let mut out = BTreeMap::new();
+        for frame in &self.frames {
+            *out.entry(frame.spp).or_insert(0) += 1;
+        }
+        out
+    }
+
+    /// Whether no level has a second replicate, so that uncertainty can only come from within the image.
+    pub(crate) fn single(&self) -> bool {
+        self.frames.iter().all(|frame| frame.replicate == 0)
+    }
+
+    /// Camera samples still to be rendered for the reference, if it is needed, and for these frames.
+    pub(crate) fn samples<'a>(
+        &self,
+        cache: &Cache,
+        frames: impl Iterator<Item = &'a FrameSpec>,
+        reference: bool,
+    ) -> u64 {
+        let Source::Rendered(rendered) = &self.source else { return 0 };
+        let pixels = (self.width * self.height) as u64;
+        let frames = frames.filter(|f| !cache.has(&f.key)).map(|f| u64::from(f.spp));
+        let parts = if reference { rendered.missing_reference_samples(cache) } else { 0 };
+        pixels * (frames.sum::<u64>() + parts)
+    }
+
+    /// Renders, draws or reads a frame.
+    pub(crate) fn frame(
+        &self,
+        spec: &FrameSpec,
+        cache: &Cache,
+        observer: &dyn Observer,
+    ) -> Result<Frame, HarnessError> {
+        match &self.source {
+            Source::Rendered(rendered) => rendered.frame(spec, cache, observer),
+            Source::Synthetic(scene) => Ok(scene.render(spec.spp, spec.seed)),
+            Source::Imported(folder) => folder.frame(spec, observer),
+        }
+    }
+
+    /// Renders or reads the reference.
+    pub(crate) fn reference(
+        &self,
+        cache: &Cache,
+        observer: &dyn Observer,
+    ) -> Result<Reference, HarnessError> {
+        match &self.source {
+            Source::Rendered(rendered) => rendered.reference(&self.id, cache, observer),
+            Source::Synthetic(scene) => Ok(scene.truth()),
+            Source::Imported(folder) => folder.reference(),
+        }
+    }
+
+    /// One class per pixel.
+    pub(crate) fn classes(&self, reference: &Reference) -> Result<PixelClasses, HarnessError> {
+        match &self.source {
+            Source::Rendered(rendered) => rendered.classes(reference),
+            Source::Synthetic(scene) => Ok(PixelClasses::from(scene.classes())),
+            Source::Imported(_) => Ok(PixelClasses::from_reference(reference)),
+        }
+    }
+}
+
+fn synthetic(
+    study: &Study,
+    spec: &SceneSpec,
+    scene: &SyntheticScene,
+    size: Option<(usize, usize)>,
+) -> Result<Scene, HarnessError> {
+    let scene = match size {
+        Some((width, height)) => scene.resized(width, height).map_err(|e| HarnessError::Field {
+            place: crate::Place { file: format!("study `{}`", study.name), line: None },
+            field: format!("scene `{}`: size", spec.id),
+            value: format!("{width}×{height}"),
+            allowed: e.to_string(),
+        })?,
+        None => scene.clone(),
+    };
+    let description = serde_json::to_value(&scene).unwrap_or_default();
+    let frames = frame_specs(study, spec, &description, |spp, seed| {
+        key_of(&json!({
+            "synthetic": description, "version": env!("CARGO_PKG_VERSION"), "spp": spp, "seed": seed
+        }))
+    });
+    let settings = BTreeMap::from([
+        ("seed".to_owned(), study.seed.to_string()),
+        ("samples".to_owned(), description.to_string()),
+    ]);
+    Ok(Scene {
+        id: spec.id.clone(),
+        title: spec.id.clone(),
+        about: format!(
+            "synthetic: samples of a known law ({}) around a known mean image",
+            scene.law().name()
+        ),
+        width: scene.width(),
+        height: scene.height(),
+        sampling: Sampling::Independent,
+        settings,
+        frames,
+        reference_key: key_of(&json!({ "truth": description })),
+        reference_spp: 0,
+        reference_sampling: "exact".into(),
+        source: Source::Synthetic(scene),
+    })
+}
+
+/// The frames of a scene whose random seeds follow from study seed, scene, level and replicate, never from the study's
+/// name, so that studies share frames.
+fn frame_specs(
+    study: &Study,
+    spec: &SceneSpec,
+    identity: &serde_json::Value,
+    key: impl Fn(u32, u64) -> Key,
+) -> Vec<FrameSpec> {
+    let mut frames = Vec::new();
+    for &spp in study.levels(spec) {
+        for replicate in 0..study.replicates(spec, spp) {
+            let seed = seed_of(&json!({
+                "purpose": "frame", "seed": study.seed, "scene": identity, "spp": spp, "replicate": replicate
+            }));
+            frames.push(FrameSpec { spp, replicate, seed, key: key(spp, seed) });
+        }
+    }
+    frames
+}

@@ -1,0 +1,102 @@
+//! Scenes of another program: a folder of frames with a reference.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use noisefloor_frame::{Frame, Reference};
+use noisefloor_io::{FrameFolder, ReadOptions, check_variance_scale, read_frame, read_reference};
+use serde_json::json;
+
+use crate::cache::{Key, key_of};
+use crate::error::HarnessError;
+use crate::observer::Observer;
+use crate::source::{FrameSpec, Scene, Source};
+use crate::study::SceneSpec;
+
+/// The files of an imported scene.
+pub(super) struct Imported {
+    files: BTreeMap<(u32, u32), PathBuf>,
+    reference: PathBuf,
+    options: ReadOptions,
+}
+
+pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError> {
+    // A single level in the study file also says what the files themselves do not.
+    let options = ReadOptions {
+        spp: spec.spp.as_deref().and_then(|levels| <[u32; 1]>::try_from(levels).ok()).map(|[n]| n),
+    };
+    let folder = FrameFolder::scan(path, &options)?;
+    let wanted = |spp: u32| spec.spp.as_ref().is_none_or(|levels| levels.contains(&spp));
+    if let Some(absent) = spec.spp.iter().flatten().find(|n| !folder.frames.iter().any(|f| f.spp == **n)) {
+        return Err(HarnessError::Folder {
+            path: path.into(),
+            reason: format!("no frame of {absent} samples per pixel, which the study asks for"),
+        });
+    }
+    let mut frames = Vec::new();
+    let mut files = BTreeMap::new();
+    for frame in folder.frames.iter().filter(|frame| wanted(frame.spp)) {
+        let replicate = frame.replicate as u32;
+        frames.push(FrameSpec {
+            spp: frame.spp,
+            replicate,
+            seed: frame.info.provenance.seed.unwrap_or(0),
+            key: file_key(&frame.path, &options)?,
+        });
+        files.insert((frame.spp, replicate), frame.path.clone());
+    }
+    let info = &folder.reference_info;
+    let mut settings = BTreeMap::from([
+        ("sampling".to_owned(), folder.frames[0].info.sampling.name().to_owned()), // at least one frame by contract
+        ("layers".to_owned(), folder.frames[0].info.layers.join(", ")),
+    ]);
+    let provenance = &folder.frames[0].info.provenance;
+    for (name, value) in [
+        ("renderer", &provenance.renderer),
+        ("integrator", &provenance.integrator),
+        ("sampler", &provenance.sampler),
+    ] {
+        if let Some(value) = value {
+            settings.insert(name.into(), value.clone());
+        }
+    }
+    let scene_name = provenance.scene.clone().unwrap_or_else(|| folder.name());
+    Ok(Scene {
+        id: spec.id.clone(),
+        title: scene_name,
+        about: match &provenance.renderer {
+            Some(renderer) => format!("imported frames, rendered by {renderer}"),
+            None => "imported frames of another program".into(),
+        },
+        width: info.width,
+        height: info.height,
+        sampling: folder.frames[0].info.sampling,
+        settings,
+        frames,
+        reference_key: file_key(&folder.reference, &options)?,
+        reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
+        reference_sampling: info.sampling.name().to_owned(),
+        source: Source::Imported(Imported { files, reference: folder.reference.clone(), options }),
+    })
+}
+
+fn file_key(path: &Path, options: &ReadOptions) -> Result<Key, HarnessError> {
+    let bytes = std::fs::read(path).map_err(HarnessError::io("read", path))?;
+    Ok(key_of(&json!({ "file": blake3::hash(&bytes).to_hex().as_str(), "spp": options.spp })))
+}
+
+impl Imported {
+    pub(super) fn frame(&self, spec: &FrameSpec, observer: &dyn Observer) -> Result<Frame, HarnessError> {
+        let path = &self.files[&(spec.spp, spec.replicate)]; // made from the same list as the specs
+        let frame = read_frame(path, &self.options)?;
+        if let Some(warning) = check_variance_scale(&frame) {
+            observer.warning(&format!("{}: {warning}", path.display()));
+        }
+        Ok(frame)
+    }
+
+    pub(super) fn reference(&self) -> Result<Reference, HarnessError> {
+        // The count of the reference only serves to say how long it is; a file without one is usable.
+        Ok(read_reference(&self.reference, &ReadOptions { spp: self.options.spp.or(Some(1)) })?)
+    }
+}

@@ -1,0 +1,259 @@
+//! Scenes that are rendered here.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use noisefloor_frame::{Estimate, Flash, Frame, Image, PixelFilter, Reference, Sampling};
+use noisefloor_render::{Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, render};
+use serde_json::{Value, json};
+
+use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
+use crate::error::HarnessError;
+use crate::observer::{Observer, Stage};
+use crate::source::{FrameSpec, PixelClasses, Scene, Source, frame_specs};
+use crate::study::{ReferenceSpec, SceneSpec, Study};
+
+/// A scene with everything that all its frames have in common.
+pub(super) struct Rendered {
+    prepared: Prepared,
+    width: usize,
+    height: usize,
+    depth: u32,
+    filter: PixelFilter,
+    sampling: Sampling,
+    record: BTreeMap<Quantity, Keep>,
+    reference: ReferenceSpec,
+    /// Hash and seed of each part of the reference.
+    parts: Vec<(Key, u64)>,
+}
+
+pub(super) fn open(
+    study: &Study,
+    spec: &SceneSpec,
+    id: &str,
+    size: Option<(usize, usize)>,
+    recorded: &BTreeMap<Quantity, Keep>,
+) -> Result<Scene, HarnessError> {
+    let entry = noisefloor_scenes::find(id).map_err(|source| HarnessError::Scene {
+        place: crate::Place { file: format!("study `{}`", study.name), line: None },
+        source,
+    })?;
+    let scene = (entry.build)();
+    let prepared = Prepared::new(&scene)?;
+    let (width, height) = size.unwrap_or((study.width, study.height));
+    let record: BTreeMap<Quantity, Keep> =
+        recorded.iter().filter(|(q, _)| prepared.available().contains(q)).map(|(q, k)| (*q, *k)).collect();
+
+    let reference = study.reference;
+    let (depth, filter) = (study.depth, study.filter);
+    // Everything that a sample's value depends on, whoever asks for it.
+    let look = |sampling: Sampling, record: &BTreeMap<Quantity, Keep>| {
+        Ok::<_, HarnessError>(json!({
+            "scene": content_hash(&scene), "renderer": fingerprint(&prepared, depth, filter, sampling, record)?,
+            "width": width, "height": height, "depth": depth, "filter": filter, "sampling": sampling,
+        }))
+    };
+    let noisy = look(study.sampling, &record)?;
+    let clean = look(reference.sampling, &BTreeMap::new())?;
+    let identity = Value::from(entry.id);
+    let frames = frame_specs(study, spec, &identity, |spp, seed| {
+        key_of(&json!({
+            "look": noisy, "spp": spp, "seed": seed,
+            "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
+        }))
+    });
+    let per_part = reference.spp / reference.parts; // parts ≥ 8 by the study's checks
+    let parts: Vec<(Key, u64)> = (0..reference.parts)
+        .map(|part| {
+            // No study seed: all studies share one reference, drawn apart from every frame.
+            let seed = seed_of(&json!({"purpose": "reference", "scene": identity, "part": part}));
+            let key = key_of(&json!({
+                "look": clean, "spp": per_part, "seed": seed, "record": "mean"
+            }));
+            (key, seed)
+        })
+        .collect();
+    let settings = [
+        ("seed", study.seed.to_string()),
+        ("path depth", study.depth.to_string()),
+        ("film filter", study.filter.name().to_owned()),
+        ("sampling", study.sampling.name().to_owned()),
+        ("recorded", record.keys().map(|q| q.name()).collect::<Vec<_>>().join(", ")),
+    ];
+    Ok(Scene {
+        id: spec.id.clone(),
+        title: scene.title.to_owned(),
+        about: entry.about.to_owned(),
+        width,
+        height,
+        sampling: study.sampling,
+        settings: settings.map(|(name, value)| (name.to_owned(), value)).into(),
+        frames,
+        reference_key: key_of(&parts.iter().map(|(key, _)| key).collect::<Vec<_>>()),
+        reference_spp: u64::from(reference.spp),
+        reference_sampling: reference.sampling.name().to_owned(),
+        source: Source::Rendered(Box::new(Rendered {
+            prepared,
+            width,
+            height,
+            depth: study.depth,
+            filter: study.filter,
+            sampling: study.sampling,
+            record,
+            reference,
+            parts,
+        })),
+    })
+}
+
+/// Hash of a tiny frame's bits: changes whenever the renderer gives other numbers, so that nobody has to remember to
+/// raise a version.
+fn fingerprint(
+    prepared: &Prepared,
+    depth: u32,
+    filter: PixelFilter,
+    sampling: Sampling,
+    record: &BTreeMap<Quantity, Keep>,
+) -> Result<String, HarnessError> {
+    let request = RenderRequest {
+        depth,
+        filter,
+        sampling,
+        record: Record::Exactly(record.clone()),
+        ..RenderRequest::new(prepared, 24, 18, 8)
+    };
+    let frame = render(&request, &noisefloor_render::Silent)?;
+    let mut hasher = blake3::Hasher::new();
+    let mut add = |image: &Image| {
+        image.data().iter().for_each(|v| {
+            hasher.update(&v.to_bits().to_le_bytes());
+        })
+    };
+    add(&frame.color.mean);
+    frame.features.values().for_each(|estimate| add(&estimate.mean));
+    if let Some(Flash::Parts { base, light, .. }) = &frame.flash {
+        add(&base.mean);
+        add(&light.mean);
+    }
+    Ok(hasher.finalize().to_hex()[..16].to_owned())
+}
+
+/// Hash of a scene's description: plain data without random state, so its printed form tells it completely.
+fn content_hash(scene: &noisefloor_scenes::Scene) -> String {
+    struct Sink(blake3::Hasher);
+    impl std::fmt::Write for Sink {
+        fn write_str(&mut self, text: &str) -> std::fmt::Result {
+            self.0.update(text.as_bytes());
+            Ok(())
+        }
+    }
+    let mut sink = Sink(blake3::Hasher::new());
+    write!(sink, "{scene:?}").expect("hashing cannot fail");
+    sink.0.finalize().to_hex()[..32].to_owned()
+}
+
+impl Rendered {
+    fn request(&self, spp: u32, seed: u64, sampling: Sampling, record: Record) -> RenderRequest<'_> {
+        RenderRequest {
+            spp,
+            seed,
+            sampling,
+            record,
+            depth: self.depth,
+            filter: self.filter,
+            ..RenderRequest::new(&self.prepared, self.width, self.height, spp)
+        }
+    }
+
+    pub(super) fn missing_reference_samples(&self, cache: &Cache) -> u64 {
+        let per_part = u64::from(self.reference.spp / self.reference.parts);
+        self.parts.iter().filter(|(key, _)| !cache.has(key)).map(|_| per_part).sum()
+    }
+
+    pub(super) fn frame(
+        &self,
+        spec: &FrameSpec,
+        cache: &Cache,
+        observer: &dyn Observer,
+    ) -> Result<Frame, HarnessError> {
+        let request = self.request(spec.spp, spec.seed, self.sampling, Record::Exactly(self.record.clone()));
+        cached(cache, &spec.key, observer, || rendered(&request, observer))
+    }
+
+    /// Part by part, each kept, so that a killed run loses at most one part.
+    pub(super) fn reference(
+        &self,
+        scene: &str,
+        cache: &Cache,
+        observer: &dyn Observer,
+    ) -> Result<Reference, HarnessError> {
+        let per_part = self.reference.spp / self.reference.parts;
+        let mut parts = Vec::new();
+        for (part, (key, seed)) in self.parts.iter().enumerate() {
+            observer.stage(&Stage::Reference {
+                scene: scene.to_owned(),
+                part: part as u32,
+                parts: self.reference.parts,
+            });
+            let request = self.request(per_part, *seed, self.reference.sampling, Record::color_only());
+            let frame = cached(cache, key, observer, || {
+                let mut frame = rendered(&request, observer)?;
+                frame.color = Estimate::from_mean(frame.color.mean);
+                Ok(frame)
+            })?;
+            parts.push(frame.color.mean);
+        }
+        Reference::from_parts(parts, per_part, self.reference.sampling)
+            .map_err(|source| HarnessError::Frame { scene: scene.to_owned(), source })
+    }
+
+    pub(super) fn classes(&self, reference: &Reference) -> Result<PixelClasses, HarnessError> {
+        let of_scene = noisefloor_render::pixel_classes(&self.prepared, self.width, self.height)?.classes;
+        let of_class =
+            [PixelClass::Emitter, PixelClass::Glossy, PixelClass::OutOfFocus, PixelClass::Background]
+                .map(|class| (class.name(), of_scene.iter().map(|c| *c == class).collect::<Vec<bool>>()));
+        Ok(PixelClasses::from_masks(&of_class, reference))
+    }
+}
+
+/// From the cache, or made and put there.
+fn cached(
+    cache: &Cache,
+    key: &str,
+    observer: &dyn Observer,
+    make: impl FnOnce() -> Result<Frame, HarnessError>,
+) -> Result<Frame, HarnessError> {
+    match cache.get(key)? {
+        Lookup::Hit(frame) => return Ok(*frame),
+        Lookup::Miss => {}
+        Lookup::Damaged(path, why) => {
+            observer.warning(&format!("{}: {why}; made again", path.display()));
+        }
+    }
+    let frame = make()?;
+    cache.put(key, &frame)?;
+    Ok(frame)
+}
+
+fn rendered(request: &RenderRequest<'_>, observer: &dyn Observer) -> Result<Frame, HarnessError> {
+    let spp = u64::from(request.spp);
+    let progress = |pixels: usize| {
+        observer.rendered(pixels as u64 * spp);
+        if observer.cancelled() {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    };
+    let start = Instant::now();
+    let frame = render(request, &progress);
+    let seconds = start.elapsed().as_secs_f64();
+    let mut frame = frame.map_err(|error| match error {
+        RenderError::Cancelled => HarnessError::Cancelled,
+        other => other.into(),
+    })?;
+    frame.provenance.render_seconds.get_or_insert(seconds);
+    frame.provenance.render_threads.get_or_insert(rayon::current_num_threads() as u32);
+    Ok(frame)
+}

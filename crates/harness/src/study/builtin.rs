@@ -1,0 +1,76 @@
+use std::path::Path;
+
+use crate::error::HarnessError;
+use crate::nearest;
+use crate::study::Study;
+
+/// A study that comes with the program.
+#[derive(Debug, Clone, Copy)]
+pub struct BuiltinStudy {
+    /// Name for the command line.
+    pub name: &'static str,
+    /// The file.
+    pub toml: &'static str,
+}
+
+impl BuiltinStudy {
+    /// Reads it.
+    ///
+    /// # Errors
+    /// As [`Study::from_toml`]; a test reads them all.
+    pub fn study(&self) -> Result<Study, HarnessError> {
+        Study::from_toml(self.toml, Path::new(&format!("{}.toml", self.name)))
+    }
+}
+
+const STUDIES: &[BuiltinStudy] = &[
+    BuiltinStudy { name: "quick", toml: include_str!("../../../../benchmarks/studies/quick.toml") },
+    BuiltinStudy { name: "vfi-table1", toml: include_str!("../../../../benchmarks/studies/vfi-table1.toml") },
+    BuiltinStudy { name: "vfi-fig09", toml: include_str!("../../../../benchmarks/studies/vfi-fig09.toml") },
+    BuiltinStudy {
+        name: "vfi-check-640",
+        toml: include_str!("../../../../benchmarks/studies/vfi-check-640.toml"),
+    },
+];
+
+/// The studies that come with the program, in display order.
+#[must_use]
+pub fn builtin_studies() -> &'static [BuiltinStudy] {
+    STUDIES
+}
+
+impl Study {
+    /// The built-in study of this name.
+    ///
+    /// # Errors
+    /// [`HarnessError::UnknownStudy`] with the nearest names.
+    pub fn builtin(name: &str) -> Result<Self, HarnessError> {
+        match STUDIES.iter().find(|study| study.name == name) {
+            Some(study) => study.study(),
+            None => Err(HarnessError::UnknownStudy {
+                name: name.into(),
+                nearest: nearest(name, STUDIES.iter().map(|s| s.name)),
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_builtin_study_is_valid_and_has_the_name_it_is_found_by() {
+        for study in builtin_studies() {
+            let read = study.study().unwrap_or_else(|e| panic!("{e}"));
+            assert_eq!(read.name, study.name);
+            assert!(!read.question.is_empty() && !read.analysis.is_empty());
+        }
+    }
+
+    #[test]
+    fn misspelt_study_is_answered_with_the_nearest() {
+        let error = Study::builtin("vfi-fig9").unwrap_err().to_string();
+        assert!(error.contains("`vfi-fig9`") && error.contains("vfi-fig09"), "{error}");
+    }
+}

@@ -1,0 +1,200 @@
+//! What a study must obey beyond its grammar.
+
+use std::collections::BTreeSet;
+
+use noisefloor_frame::{Reference, Sampling};
+
+use crate::error::{HarnessError, Place};
+use crate::study::{SceneSource, SceneSpec, Study};
+
+/// Where each part of a study stands in its file.
+#[derive(Debug, Default)]
+pub(super) struct Lines<'a> {
+    /// File, or the name of a study that came from no file.
+    pub file: String,
+    /// Its text; empty if it came from no file.
+    pub text: &'a str,
+    /// Lines of the scene tables.
+    pub scenes: Vec<usize>,
+}
+
+impl Lines<'_> {
+    pub(super) fn place(&self, line: Option<usize>) -> Place {
+        Place { file: self.file.clone(), line }
+    }
+
+    /// The first line that sets this key.
+    fn of_key(&self, key: &str) -> Option<usize> {
+        let sets = |line: &str| {
+            line.trim_start().strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='))
+        };
+        self.text.lines().position(sets).map(|index| index + 1)
+    }
+}
+
+/// Refuses values without meaning.
+pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
+    let wrong = |field: &str, line: Option<usize>, value: String, allowed: &str| {
+        Err(HarnessError::Field {
+            place: lines.place(line),
+            field: field.into(),
+            value,
+            allowed: allowed.into(),
+        })
+    };
+    let key = |name: &str| lines.of_key(name);
+    let named = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+    if study.name.is_empty() || !study.name.chars().all(named) || study.name.starts_with('.') {
+        return wrong("name", key("name"), quoted(&study.name), "letters, digits, `-`, `_` and `.`");
+    }
+    // Folders know their own levels.
+    let needed = |s: &SceneSpec| s.spp.is_none() && !matches!(s.source, SceneSource::Folder(_));
+    if let Some(problem) = levels_problem(&study.spp)
+        && (study.scenes.iter().any(needed) || !study.spp.is_empty())
+    {
+        return wrong("spp", key("spp"), format!("{:?}", study.spp), problem);
+    }
+    let replicates = std::iter::once(study.replicates.default)
+        .chain(study.replicates.above.iter().map(|(_, count)| *count));
+    if let Some(bad) = replicates.into_iter().find(|n| !(1..=10_000).contains(n)) {
+        return wrong("replicates", key("replicates"), bad.to_string(), "1 to 10000");
+    }
+    for (name, size) in [("width", study.width), ("height", study.height)] {
+        if !(1..=16_384).contains(&size) {
+            return wrong(name, key(name), size.to_string(), "1 to 16384");
+        }
+    }
+    if !(1..=1024).contains(&study.depth) {
+        return wrong("depth", key("depth"), study.depth.to_string(), "1 to 1024");
+    }
+    check_reference(study, lines)?;
+    if study.timing.runs == 0 {
+        return wrong("timing.runs", key("runs"), "0".into(), "at least 1");
+    }
+    if let Some(bad) = study.coverage.iter().find(|c| !(**c > 0.0 && **c < 1.0)) {
+        return wrong("coverage", key("coverage"), bad.to_string(), "probabilities strictly between 0 and 1");
+    }
+    if let Some(bad) = study.probe.iter().flatten().find(|v| !(0.0..=1.0).contains(*v)) {
+        return wrong("probe", key("probe"), bad.to_string(), "fractions of the image's size, 0 to 1");
+    }
+    let known = crate::metric::ids();
+    for id in &study.metrics {
+        if !known.contains(id) {
+            return wrong("metrics", key("metrics"), quoted(id), &known.join(", "));
+        }
+    }
+    if !study.metrics.contains(&study.primary_metric) {
+        let listed = study.metrics.join(", ");
+        return wrong("primary_metric", key("primary_metric"), quoted(&study.primary_metric), &listed);
+    }
+    check_scenes(study, lines)?;
+    check_rows(study, lines)
+}
+
+fn check_reference(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
+    let reference = &study.reference;
+    let wrong = |field: &str, value: u32, allowed: String| {
+        Err(HarnessError::Field {
+            place: lines.place(lines.text.lines().position(|l| l.trim() == "[reference]").map(|l| l + 1)),
+            field: format!("reference.{field}"),
+            value: value.to_string(),
+            allowed,
+        })
+    };
+    let least = Reference::LEAST_PARTS as u32;
+    if !(least..=4096).contains(&reference.parts) {
+        return wrong("parts", reference.parts, format!("{least} to 4096 independent parts"));
+    }
+    if reference.spp == 0 || !reference.spp.is_multiple_of(reference.parts) {
+        return wrong("spp", reference.spp, format!("a positive multiple of {} parts", reference.parts));
+    }
+    let per_part = reference.spp / reference.parts;
+    let longest = 2 * noisefloor_render::LONGEST_SEQUENCE;
+    if reference.sampling == Sampling::LowDiscrepancy && per_part > longest {
+        return wrong("spp", reference.spp, format!("at most {longest} per low-discrepancy part"));
+    }
+    Ok(())
+}
+
+fn check_scenes(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
+    let mut seen = BTreeSet::new();
+    let wrong = |index: usize, field: &str, value: String, allowed: &str| {
+        Err(HarnessError::Field {
+            place: lines.place(lines.scenes.get(index).copied()),
+            field: format!("scene[{index}].{field}"),
+            value,
+            allowed: allowed.into(),
+        })
+    };
+    for (index, scene) in study.scenes.iter().enumerate() {
+        let named = |c: char| c.is_ascii_alphanumeric() || "-_.".contains(c);
+        if scene.id.is_empty() || !scene.id.chars().all(named) || scene.id.starts_with('.') {
+            return wrong(index, "id", quoted(&scene.id), "letters, digits, `-`, `_` and `.`");
+        }
+        if !seen.insert(&scene.id) {
+            return wrong(index, "id", quoted(&scene.id), "ids that differ from each other");
+        }
+        if let Some(spp) = &scene.spp
+            && let Some(problem) = levels_problem(spp)
+        {
+            return wrong(index, "spp", format!("{spp:?}"), problem);
+        }
+        if let Some(replicates) = &scene.replicates
+            && std::iter::once(replicates.default).chain(replicates.above.iter().map(|a| a.1)).any(|n| n == 0)
+        {
+            return wrong(index, "replicates", "0".into(), "1 to 10000");
+        }
+        if let SceneSource::Folder(path) = &scene.source
+            && !path.is_dir()
+        {
+            return wrong(index, "folder", quoted(&path.display().to_string()), "a folder that exists");
+        }
+    }
+    if study.scenes.is_empty() {
+        return wrong(0, "id", "absent".into(), "at least one `[[scene]]`");
+    }
+    Ok(())
+}
+
+fn check_rows(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
+    let mut seen = BTreeSet::new();
+    for (index, row) in study.methods.iter().enumerate() {
+        let wrong = |field: &str, value: String, allowed: &str| {
+            Err(HarnessError::Field {
+                place: lines.place(row.line),
+                field: format!("method[{index}].{field}"),
+                value,
+                allowed: allowed.into(),
+            })
+        };
+        if row.label.trim().is_empty() {
+            return wrong("label", quoted(&row.label), "some text");
+        }
+        if !seen.insert(&row.label) {
+            return wrong("label", quoted(&row.label), "labels that differ from each other (set `label`)");
+        }
+    }
+    if study.methods.is_empty() {
+        return Err(HarnessError::Field {
+            place: lines.place(None),
+            field: "method".into(),
+            value: "absent".into(),
+            allowed: "at least one `[[method]]`".into(),
+        });
+    }
+    Ok(())
+}
+
+fn levels_problem(levels: &[u32]) -> Option<&'static str> {
+    if levels.is_empty() {
+        return Some("at least one number of samples per pixel");
+    }
+    if levels.iter().any(|n| !(1..=1 << 20).contains(n)) {
+        return Some("numbers from 1 to 1048576");
+    }
+    (!levels.is_sorted_by(|a, b| a < b)).then_some("ascending numbers without repetition")
+}
+
+fn quoted(text: &str) -> String {
+    format!("`{text}`")
+}

@@ -1,0 +1,89 @@
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use noisefloor_frame::{PixelFilter, Reference, Sampling};
+use noisefloor_io::{ReadOptions, scan_scenes};
+
+use crate::error::HarnessError;
+use crate::study::check::{Lines, check};
+use crate::study::{Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Study, Timing};
+
+impl Study {
+    /// A study of somebody else's frames: the folder itself, or each of its sub-folders, with a reference in it. `spp` is
+    /// the sample count of frames that do not say theirs; the rows are the caller's, because the harness names no method.
+    ///
+    /// # Errors
+    /// [`HarnessError::Image`] if there are no frames or no reference, [`HarnessError::Folder`] for `spp` with frames of
+    /// several levels, [`HarnessError::Field`] for rows of equal label.
+    pub fn for_folder(path: &Path, spp: Option<u32>, rows: Vec<MethodRow>) -> Result<Self, HarnessError> {
+        let folders = scan_scenes(path, &ReadOptions { spp })?;
+        let name = clean(&path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+        let mut levels = BTreeSet::new();
+        let mut scenes = Vec::new();
+        let mut taken = BTreeSet::new();
+        for folder in &folders {
+            levels.extend(folder.frames.iter().map(|frame| frame.spp));
+            let mut id = clean(&folder.path.canonicalize().unwrap_or_else(|_| folder.path.clone()));
+            while !taken.insert(id.clone()) {
+                id.push('_');
+            }
+            let silent = folder.frames.iter().any(|frame| frame.info.spp.is_none());
+            let own: BTreeSet<u32> = folder.frames.iter().map(|frame| frame.spp).collect();
+            if silent && own.len() > 1 {
+                return Err(HarnessError::Folder {
+                    path: folder.path.clone(),
+                    reason: "some frames say their samples per pixel and some do not; give the attribute `spp` to all".into(),
+                });
+            }
+            scenes.push(SceneSpec {
+                id,
+                source: SceneSource::Folder(folder.path.clone()),
+                spp: silent.then(|| own.into_iter().collect()),
+                replicates: None,
+            });
+        }
+        let metrics = crate::metric::ids();
+        let study = Self {
+            title: format!("Frames of {name}"),
+            question: "On these frames of another renderer: which denoiser has the lowest error at which cost, and do the \
+                       confidence intervals and error bounds hold?"
+                .into(),
+            analysis: Vec::new(),
+            reproduces: None,
+            name,
+            spp: levels.into_iter().collect(),
+            replicates: Replicates::uniform(1),
+            width: folders[0].reference_info.width, // at least one folder by contract
+            height: folders[0].reference_info.height,
+            depth: 8,
+            filter: PixelFilter::Box,
+            seed: 0,
+            sampling: Sampling::Independent,
+            reference: ReferenceSpec {
+                spp: 1024,
+                parts: Reference::LEAST_PARTS as u32,
+                sampling: Sampling::LowDiscrepancy,
+            },
+            scenes,
+            methods: rows,
+            primary_metric: crate::metric::primary(&metrics),
+            metrics,
+            coverage: vec![0.95, 0.99, 0.998],
+            timing: Timing::default(),
+            comparison: Family::AllPairs,
+            viewer_spp: Vec::new(),
+            probe: None,
+            figures: Vec::new(),
+        };
+        check(&study, &Lines { file: path.display().to_string(), ..Lines::default() })?;
+        Ok(study)
+    }
+}
+
+/// Last part of a path as a name without special characters.
+fn clean(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let kept: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' }).collect();
+    if kept.is_empty() { "frames".into() } else { kept }
+}

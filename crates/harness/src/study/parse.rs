@@ -1,0 +1,228 @@
+//! The grammar of a study file. Everything optional gets its default here.
+
+use std::path::{Path, PathBuf};
+
+use noisefloor_frame::{PixelFilter, Sampling};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use toml::Spanned;
+
+use crate::error::{HarnessError, Place};
+use crate::study::check::{Lines, check};
+use crate::study::{Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Study, Timing};
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Raw {
+    name: String,
+    title: Option<String>,
+    #[serde(default)]
+    question: String,
+    #[serde(default)]
+    analysis: Vec<String>,
+    reproduces: Option<String>,
+    #[serde(default)]
+    spp: Vec<u32>,
+    #[serde(default)]
+    replicates: RawReplicates,
+    #[serde(default = "default_width")]
+    width: usize,
+    #[serde(default = "default_height")]
+    height: usize,
+    #[serde(default = "default_depth")]
+    depth: u32,
+    #[serde(default = "default_filter")]
+    filter: PixelFilter,
+    #[serde(default)]
+    seed: u64,
+    #[serde(default = "default_sampling")]
+    sampling: Sampling,
+    #[serde(default)]
+    reference: RawReference,
+    #[serde(rename = "scene")]
+    scenes: Vec<Spanned<RawScene>>,
+    #[serde(rename = "method")]
+    methods: Vec<Spanned<RawMethod>>,
+    metrics: Option<Vec<String>>,
+    primary_metric: Option<String>,
+    coverage: Option<Vec<f64>>,
+    #[serde(default)]
+    timing: Timing,
+    #[serde(default)]
+    comparison: Family,
+    #[serde(default)]
+    viewer_spp: Vec<u32>,
+    probe: Option<[f64; 2]>,
+    #[serde(default)]
+    figures: Vec<String>,
+}
+
+fn default_width() -> usize {
+    256
+}
+fn default_height() -> usize {
+    192
+}
+fn default_depth() -> u32 {
+    8
+}
+fn default_filter() -> PixelFilter {
+    PixelFilter::Box
+}
+fn default_sampling() -> Sampling {
+    Sampling::Independent
+}
+
+/// `4` or `{ default = 8, above = [[256, 4]] }`.
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "a number, or a table like { default = 8, above = [[256, 4]] }")]
+enum RawReplicates {
+    Number(u32),
+    Table(Replicates),
+}
+
+impl Default for RawReplicates {
+    fn default() -> Self {
+        Self::Number(4)
+    }
+}
+
+impl From<RawReplicates> for Replicates {
+    fn from(raw: RawReplicates) -> Self {
+        match raw {
+            RawReplicates::Number(count) => Self::uniform(count),
+            RawReplicates::Table(table) => table,
+        }
+    }
+}
+
+#[derive(Deserialize, Default)]
+#[serde(deny_unknown_fields)]
+struct RawReference {
+    spp: Option<u32>,
+    parts: Option<u32>,
+    sampling: Option<Sampling>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawScene {
+    id: String,
+    synthetic: Option<noisefloor_synthetic::SyntheticScene>,
+    folder: Option<PathBuf>,
+    spp: Option<Vec<u32>>,
+    replicates: Option<RawReplicates>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawMethod {
+    id: String,
+    label: Option<String>,
+    #[serde(default)]
+    set: Map<String, Value>,
+}
+
+impl Study {
+    /// Reads a study. `path` is named in messages, and folders of frames are found relative to the folder it is in.
+    ///
+    /// # Errors
+    /// [`HarnessError::Syntax`], [`HarnessError::Field`] or [`HarnessError::Scene`], each with the line. Methods are looked
+    /// up when the study is run, because only then is there a registry.
+    pub fn from_toml(text: &str, path: &Path) -> Result<Self, HarnessError> {
+        let file = path.display().to_string();
+        let line_at = |offset: usize| text[..offset.min(text.len())].matches('\n').count() + 1;
+        let raw: Raw = toml::from_str(text).map_err(|error| HarnessError::Syntax {
+            place: Place { file: file.clone(), line: error.span().map(|span| line_at(span.start)) },
+            message: error.to_string().trim_end().to_owned(),
+        })?;
+        let base = path.parent().unwrap_or(Path::new(""));
+        let mut lines = Lines { file, text, scenes: Vec::new() };
+
+        let mut scenes = Vec::new();
+        for (index, scene) in raw.scenes.into_iter().enumerate() {
+            let line = line_at(scene.span().start);
+            lines.scenes.push(line);
+            scenes.push(scene.into_inner().resolve(index, line, base, &lines)?);
+        }
+        let methods = raw.methods.into_iter().map(|row| {
+            let line = line_at(row.span().start);
+            let RawMethod { id, label, set } = row.into_inner();
+            MethodRow { label: label.unwrap_or_else(|| id.clone()), id, set, line: Some(line) }
+        });
+        let top = raw.spp.iter().copied().max().unwrap_or(1);
+        let reference = ReferenceSpec {
+            // 16 times the largest level is what the coverage correction assumes.
+            spp: raw.reference.spp.unwrap_or_else(|| top.saturating_mul(16).max(1024).next_multiple_of(8)),
+            parts: raw.reference.parts.unwrap_or(8),
+            sampling: raw.reference.sampling.unwrap_or(Sampling::LowDiscrepancy),
+        };
+        let metrics = raw.metrics.unwrap_or_else(crate::metric::ids);
+        let study = Self {
+            title: raw.title.unwrap_or_else(|| raw.name.clone()),
+            name: raw.name,
+            question: raw.question,
+            analysis: raw.analysis,
+            reproduces: raw.reproduces,
+            spp: raw.spp,
+            replicates: raw.replicates.into(),
+            width: raw.width,
+            height: raw.height,
+            depth: raw.depth,
+            filter: raw.filter,
+            seed: raw.seed,
+            sampling: raw.sampling,
+            reference,
+            scenes,
+            methods: methods.collect(),
+            primary_metric: raw.primary_metric.unwrap_or_else(|| crate::metric::primary(&metrics)),
+            metrics,
+            coverage: raw.coverage.unwrap_or_else(|| vec![0.95, 0.99, 0.998]),
+            timing: raw.timing,
+            comparison: raw.comparison,
+            viewer_spp: raw.viewer_spp,
+            probe: raw.probe,
+            figures: raw.figures,
+        };
+        check(&study, &lines)?;
+        Ok(study)
+    }
+
+    /// Reads a study file.
+    ///
+    /// # Errors
+    /// [`HarnessError::Io`], or as [`Study::from_toml`].
+    pub fn from_file(path: &Path) -> Result<Self, HarnessError> {
+        let text = std::fs::read_to_string(path).map_err(HarnessError::io("read", path))?;
+        Self::from_toml(&text, path)
+    }
+}
+
+impl RawScene {
+    fn resolve(
+        self,
+        index: usize,
+        line: usize,
+        base: &Path,
+        lines: &Lines<'_>,
+    ) -> Result<SceneSpec, HarnessError> {
+        let place = || Place { line: Some(line), ..lines.place(None) };
+        let source = match (self.synthetic, self.folder) {
+            (Some(spec), None) => SceneSource::Synthetic(spec),
+            (None, Some(folder)) => SceneSource::Folder(base.join(folder)),
+            (None, None) => match noisefloor_scenes::find(&self.id) {
+                Ok(entry) => SceneSource::Builtin(entry.id.into()),
+                Err(source) => return Err(HarnessError::Scene { place: place(), source }),
+            },
+            (Some(_), Some(_)) => {
+                return Err(HarnessError::Field {
+                    place: place(),
+                    field: format!("scene[{index}]"),
+                    value: "both synthetic and a folder".into(),
+                    allowed: "one of `synthetic` and `folder`, or neither for a built-in scene".into(),
+                });
+            }
+        };
+        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates: self.replicates.map(Into::into) })
+    }
+}
