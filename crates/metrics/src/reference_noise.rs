@@ -11,8 +11,8 @@
 //! With halves only, (x−(A+B)/2)(A−B) has the same variance as what the reference adds (exactly so for normal noise of equal
 //! halves); its sums over blocks of 32×32 pixels count as independent.
 //!
-//! With a variance v only, (x−r)² − v has the variance 4d²v + 2v² for normal noise; pixels count as independent and the
-//! channels of a pixel as fully dependent.
+//! With a variance v only, (x−r)² − v has the variance 4d²v + 2v² for normal noise, estimated without bias by 4(x−r)²v − 2v².
+//! Pixels count as independent, and the channels of a pixel as erring alike: three times the sum over channels, an upper limit.
 
 use std::collections::BTreeMap;
 
@@ -75,10 +75,7 @@ impl ReferenceNoise {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
             SquaredError::Halves if !self.centred[0].is_empty() => self.jackknife(measurer, test, valid),
             SquaredError::Halves => from_halves(measurer, test, valid),
-            SquaredError::SubtractVariance => from_variance(measurer, valid, |i| {
-                let e = f64::from(test.data()[i]) - f64::from(measurer.mean.data()[i]);
-                e * e
-            }),
+            SquaredError::SubtractVariance => from_variance(measurer, test, valid),
         };
         named(variances.map(f64::sqrt), mse)
     }
@@ -89,7 +86,7 @@ impl ReferenceNoise {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
             SquaredError::Halves if !self.centred[0].is_empty() => self.product,
             SquaredError::Halves => product_from_halves(measurer),
-            SquaredError::SubtractVariance => from_variance(measurer, &measurer.valid, |_| 0.0),
+            SquaredError::SubtractVariance => product_from_variance(measurer, &measurer.valid),
         };
         named(variances.map(f64::sqrt), 0.0)
     }
@@ -124,16 +121,26 @@ impl ReferenceNoise {
                 .map(|((&x, &r), &ok)| if ok { f64::from(x) - f64::from(r) } else { 0.0 })
                 .collect();
             let weighted: Vec<f64> = residual.iter().zip(&measurer.weight).map(|(e, w)| e * w).collect();
-            let n = parts.len() as f64; // at least 2
-            for part in parts {
-                for (variance, residual) in variances.iter_mut().zip([&residual, &weighted]) {
-                    *variance += (dot(residual, part) / used).powi(2) / (n * (n - 1.0));
+            // Piece by piece, so that each piece of the residuals stays in the cache for all parts.
+            let mut sums = vec![[0.0; 2]; parts.len()];
+            for start in (0..residual.len()).step_by(PIECE) {
+                let piece = start..(start + PIECE).min(residual.len());
+                for (sums, part) in sums.iter_mut().zip(parts) {
+                    sums[0] += dot(&residual[piece.clone()], &part[piece.clone()]);
+                    sums[1] += dot(&weighted[piece.clone()], &part[piece.clone()]);
                 }
+            }
+            let n = parts.len() as f64; // at least 2
+            for (k, variance) in variances.iter_mut().enumerate() {
+                *variance += sums.iter().map(|s| (s[k] / used).powi(2)).sum::<f64>() / (n * (n - 1.0));
             }
         }
         [0, 1].map(|k| (variances[k] - self.product[k]).max(self.product[k]))
     }
 }
+
+/// Values in a piece of a sum.
+const PIECE: usize = 2048;
 
 /// Values that enter a mean: three channels of each valid pixel, at least 1 so that means of nothing are 0.
 fn count(valid: &[bool]) -> f64 {
@@ -175,18 +182,22 @@ fn from_halves(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2
 /// For a perfect image only αβ is left, of variance σ⁴, where E(A−B)⁴ = 12σ⁴ for normal noise of equal halves.
 fn product_from_halves(measurer: &Measurer<'_>) -> [f64; 2] {
     let Some([a, b]) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
-    let valid = &measurer.valid;
+    pixel_variance(measurer, &measurer.valid, |i| {
+        (f64::from(a.data()[i]) - f64::from(b.data()[i])).powi(4) / 12.0
+    })
+}
+
+/// Sum over pixels and channels of a variance per value, three times because the channels of a pixel may err alike, over the
+/// squared count; for both weights.
+fn pixel_variance(measurer: &Measurer<'_>, valid: &[bool], variance: impl Fn(usize) -> f64) -> [f64; 2] {
     let n = valid.len();
     let mut sums = [0.0; 2];
     for p in (0..n).filter(|&p| valid[p]) {
-        // The channels of a pixel count as fully dependent.
-        let mut pixel = [0.0; 2];
         for i in [p, n + p, 2 * n + p] {
-            let spread = (f64::from(a.data()[i]) - f64::from(b.data()[i])).powi(2) / 12f64.sqrt();
-            pixel[0] += spread;
-            pixel[1] += spread * measurer.weight[i];
+            let value = 3.0 * variance(i);
+            sums[0] += value;
+            sums[1] += value * measurer.weight[i].powi(2);
         }
-        sums.iter_mut().zip(pixel).for_each(|(sum, pixel)| *sum += pixel * pixel);
     }
     sums.map(|sum| sum / count(valid).powi(2))
 }
@@ -206,25 +217,21 @@ fn block_variance(measurer: &Measurer<'_>, valid: &[bool], term: impl Fn(usize) 
     sums.map(|sum| sum / count(valid).powi(2))
 }
 
-/// 4d²v + 2v² with d² estimated by `squared_residual` − v, at least 0.
-fn from_variance(
-    measurer: &Measurer<'_>,
-    valid: &[bool],
-    squared_residual: impl Fn(usize) -> f64,
-) -> [f64; 2] {
+/// 4(x−r)²v − 2v² summed over the image, and at least the 2v² that stays for a perfect image.
+fn from_variance(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
     let Some(variance) = &measurer.reference.frame.color.variance else { return [0.0; 2] };
     let variance = variance.mean_variance().data();
-    let n = valid.len();
-    let mut sums = [0.0; 2];
-    for p in (0..n).filter(|&p| valid[p]) {
-        let mut pixel = [0.0; 2];
-        for i in [p, n + p, 2 * n + p] {
-            let v = f64::from(variance[i]).max(0.0);
-            let spread = (4.0 * (squared_residual(i) - v).max(0.0) * v + 2.0 * v * v).sqrt();
-            pixel[0] += spread;
-            pixel[1] += spread * measurer.weight[i];
-        }
-        sums.iter_mut().zip(pixel).for_each(|(sum, pixel)| *sum += pixel * pixel);
-    }
-    sums.map(|sum| sum / count(valid).powi(2))
+    let estimate = pixel_variance(measurer, valid, |i| {
+        let v = f64::from(variance[i]).max(0.0);
+        let e = f64::from(test.data()[i]) - f64::from(measurer.mean.data()[i]);
+        4.0 * e * e * v - 2.0 * v * v
+    });
+    let least = product_from_variance(measurer, valid);
+    [0, 1].map(|k| estimate[k].max(least[k]))
+}
+
+fn product_from_variance(measurer: &Measurer<'_>, valid: &[bool]) -> [f64; 2] {
+    let Some(variance) = &measurer.reference.frame.color.variance else { return [0.0; 2] };
+    let variance = variance.mean_variance().data();
+    pixel_variance(measurer, valid, |i| 2.0 * f64::from(variance[i]).powi(2))
 }

@@ -1,0 +1,175 @@
+//! The noise of a reference does not pass for error, and what it adds to the uncertainty is predicted.
+
+use std::sync::LazyLock;
+
+use noisefloor_frame::{Image, Reference, Sampling};
+use noisefloor_metrics::{EPSILON, Measurer};
+use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
+
+const SIZE: (usize, usize) = (48, 32);
+const REFERENCES: usize = 120;
+const PARTS: usize = 8;
+const SPP_PER_PART: u32 = 8;
+
+fn scene() -> SyntheticScene {
+    SyntheticScene::new(MeanImage::of(ImageKind::Ramps), SampleLaw::Exponential, SIZE.0, SIZE.1)
+        .unwrap()
+        .with_guides(Guides::None)
+}
+
+/// Independent references in eight parts.
+static REFERENCE: LazyLock<Vec<Reference>> = LazyLock::new(|| {
+    let part = |seed: usize, k: usize| scene().render(SPP_PER_PART, (seed * PARTS + k) as u64).color.mean;
+    let parts = |seed: usize| (0..PARTS).map(|k| part(seed, k)).collect();
+    let whole = |seed| Reference::from_parts(parts(seed), SPP_PER_PART, Sampling::Independent).unwrap();
+    (0..REFERENCES).map(whole).collect()
+});
+
+/// Truth plus a smooth error of about `size`, in blocks of both signs.
+fn test_image(size: f32) -> Image {
+    let truth = scene().truth();
+    let wave = |v: usize| (v as f32 * 0.3).sin();
+    let (w, h) = SIZE;
+    let error = Image::from_fn(w, h, 3, |c, x, y| size * (wave(x) * wave(y) + 0.3 * c as f32 - 0.2));
+    truth.mean().zip_map(&error, |r, e| r + e)
+}
+
+struct Trial {
+    value: f64,
+    standard_error: f64,
+    bias: f64,
+    floor: f64,
+}
+
+fn trials(size: f32, id: &str, strip: impl Fn(&mut Reference)) -> Vec<Trial> {
+    let test = test_image(size);
+    REFERENCE
+        .iter()
+        .map(|reference| {
+            let mut reference = reference.clone();
+            strip(&mut reference);
+            let measurer = Measurer::new(&reference, None).unwrap();
+            let measured = measurer.measure(&test).unwrap();
+            Trial {
+                value: measured.values[id].unwrap(),
+                standard_error: measured.reference_se.get(id).copied().unwrap_or(f64::NAN),
+                bias: measurer.bias().get("relmse").copied().unwrap_or(f64::NAN),
+                floor: measurer.floor().get(id).copied().unwrap_or(f64::NAN),
+            }
+        })
+        .collect()
+}
+
+fn mean_and_variance(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let n = values.clone().count() as f64;
+    let mean = values.clone().sum::<f64>() / n;
+    (mean, values.map(|v| (v - mean).powi(2)).sum::<f64>() / (n - 1.0))
+}
+
+fn exact(size: f32, relative: bool) -> f64 {
+    let truth = scene().truth();
+    let terms = test_image(size);
+    let sum: f64 = terms
+        .data()
+        .iter()
+        .zip(truth.mean().data())
+        .map(|(&x, &r)| {
+            let (x, r) = (f64::from(x), f64::from(r));
+            (x - r).powi(2) / if relative { r * r + EPSILON } else { 1.0 }
+        })
+        .sum();
+    sum / terms.data().len() as f64
+}
+
+fn keep(_: &mut Reference) {}
+
+fn halves_only(reference: &mut Reference) {
+    reference.parts.clear();
+    reference.frame.color.variance = None;
+}
+
+fn variance_only(reference: &mut Reference) {
+    reference.parts.clear();
+    reference.frame.color.halves = None;
+}
+
+fn nothing(reference: &mut Reference) {
+    variance_only(reference);
+    reference.frame.color.variance = None;
+}
+
+/// Takes statistics away from a reference.
+type Strip = fn(&mut Reference);
+
+/// A way to strip a reference, and up to which factor the predicted variance may exceed the actual one: 3 where the channels count as
+/// dependent, which these are not.
+const STATISTICS: [(&str, Strip, f64); 3] =
+    [("parts", keep, 1.0), ("halves", halves_only, 1.0), ("variance", variance_only, 3.0)];
+
+/// Predicted over actual variance, and the sampling error of that: an empirical variance has a relative standard error of √(2/(R−1)).
+fn ratio(predicted: impl Iterator<Item = f64> + Clone, actual: f64) -> (f64, f64) {
+    let n = REFERENCES as f64;
+    let (mean, spread) = mean_and_variance(predicted);
+    (mean / actual, (2.0 / (n - 1.0) + spread / (n * mean * mean)).sqrt())
+}
+
+#[test]
+fn corrected_errors_are_unbiased_and_their_spread_is_predicted() {
+    for (name, strip, factor) in STATISTICS {
+        for size in [0.0, 0.02, 0.2] {
+            let trials = trials(size, "mse", strip);
+            let (mean, variance) = mean_and_variance(trials.iter().map(|t| t.value));
+            let error = (variance / REFERENCES as f64).sqrt();
+            let expected = exact(size, false);
+            assert!(
+                (mean - expected).abs() < 4.0 * error,
+                "{name} {size}: {mean} ± {error}, expected {expected}"
+            );
+
+            let (ratio, error) = ratio(trials.iter().map(|t| t.standard_error.powi(2)), variance);
+            // For a perfect image the estimate is cut at the floor from below, which widens it. The variance of a reference of eight
+            // parts is itself uncertain by 2/7 of its square, beside the 2 that count: hence 7/8.
+            let widest = if size == 0.0 { 2.0 * factor } else { factor };
+            let (low, high) = (7.0 / 8.0 * (1.0 - 4.0 * error), widest * (1.0 + 4.0 * error));
+            assert!(ratio > low && ratio < high, "{name} {size}: {ratio}, limits {low} to {high}");
+        }
+    }
+}
+
+#[test]
+fn the_floor_is_the_error_of_a_perfect_image() {
+    for (name, strip, _) in STATISTICS {
+        let trials = trials(0.0, "mse", strip);
+        let (_, variance) = mean_and_variance(trials.iter().map(|t| t.value));
+        let (ratio, error) = ratio(trials.iter().map(|t| t.floor.powi(2)), variance);
+        // Without parts the channels of a pixel count as dependent.
+        let widest = if name == "parts" { 1.0 } else { 3.0 };
+        let (low, high) = (7.0 / 8.0 * (1.0 - 4.0 * error), widest * (1.0 + 4.0 * error));
+        assert!(ratio > low && ratio < high, "{name}: {ratio}, limits {low} to {high}");
+    }
+}
+
+#[test]
+fn relative_errors_are_unbiased_up_to_the_printed_figure() {
+    let size = 0.2;
+    let trials = trials(size, "relmse", keep);
+    let (mean, variance) = mean_and_variance(trials.iter().map(|t| t.value));
+    let error = (variance / REFERENCES as f64).sqrt();
+    let (expected, figure) = (exact(size, true), trials[0].bias);
+    // Expanding (x−A)(x−B)/(r̄²+ε) to second order: at most (3·d² + 4·|d|·μ)·var/(μ²+ε)² per value.
+    let bound = (3.0 * expected + 4.0 * expected.sqrt()) * figure;
+    assert!((mean - expected).abs() < bound + 4.0 * error, "{mean} ± {error}, {expected}, figure {figure}");
+    assert!(bound < 0.5 * expected, "the test means something: {bound} {expected}");
+}
+
+#[test]
+fn without_any_statistics_the_noise_counts_as_error() {
+    let trials = trials(0.0, "mse", nothing);
+    let (mean, variance) = mean_and_variance(trials.iter().map(|t| t.value));
+    // Exponential samples: the reference of 64 samples has variance μ²/64.
+    let truth = scene().truth();
+    let squares: f64 = truth.mean().data().iter().map(|&r| f64::from(r).powi(2)).sum();
+    let expected = squares / truth.mean().data().len() as f64 / 64.0;
+    assert!((mean - expected).abs() < 4.0 * (variance / REFERENCES as f64).sqrt(), "{mean} {expected}");
+    assert!(trials[0].standard_error.is_nan(), "an unknown noise has no standard error");
+}
