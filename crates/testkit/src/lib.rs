@@ -1,1 +1,23 @@
-//! Test-only: synthetic frames, derived tolerances and the conformance suite
+//! Test-only: synthetic frames, derived tolerances, hard cases and the conformance check.
+//!
+//! A method's own tests, and those of the whole workspace, run every method through [`hard_cases`] with [`check_method`]:
+//! each case must end in finite output or a typed error.
+//!
+//! ```
+//! use noisefloor_denoiser::MonteCarlo;
+//!
+//! for case in noisefloor_testkit::hard_cases() {
+//!     noisefloor_testkit::check_method(&MonteCarlo, &case)?;
+//! }
+//! # Ok::<(), String>(())
+//! ```
+
+mod broken;
+mod conformance;
+mod hard;
+mod tolerance;
+
+pub use conformance::{Survival, check_method};
+pub use hard::{HardCase, hard_case, hard_cases};
+pub use noisefloor_synthetic as synthetic;
+pub use tolerance::Tolerance;
