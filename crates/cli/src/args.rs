@@ -52,9 +52,11 @@ impl Default for Verb {
 
 /// `noisefloor run`.
 #[derive(Debug, Default, clap::Args)]
-#[command(after_help = "Examples:\n  noisefloor run quick\n  noisefloor run quick --size 320x240 --out /tmp/quick\n  \
+#[command(
+    after_help = "Examples:\n  noisefloor run quick\n  noisefloor run quick --size 320x240 --out /tmp/quick\n  \
     noisefloor run vfi-table1 --threads 8\n  noisefloor run my-study.toml --cache /big/cache\n  \
-    noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr")]
+    noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr"
+)]
 pub struct Run {
     /// Name of a built-in study, a study file, or a folder of EXR frames with a reference [default: quick]
     pub study: Option<String>,
@@ -80,9 +82,11 @@ pub struct Run {
 
 /// `noisefloor render`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  noisefloor render cornell --spp 64 --seed 1 --size 640x480 -o cornell.exr\n  \
+#[command(
+    after_help = "Examples:\n  noisefloor render cornell --spp 64 --seed 1 --size 640x480 -o cornell.exr\n  \
     noisefloor render toaster --spp 16 --record albedo,normal,flash --filter point -o toaster.exr\n  \
-    noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference")]
+    noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference"
+)]
 pub struct Render {
     /// Scene id; see `noisefloor scenes`
     pub scene: String,
@@ -185,7 +189,9 @@ pub struct Report {
 
 /// `noisefloor methods` and `noisefloor scenes`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json\n  noisefloor scenes --json")]
+#[command(
+    after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json\n  noisefloor scenes --json"
+)]
 pub struct List {
     /// Print a JSON array of objects with `id`
     #[arg(long)]

@@ -2,6 +2,7 @@
 
 use anyhow::bail;
 use noisefloor_io::{ReadOptions, read_color, read_reference};
+use noisefloor_metrics::{METRICS, Measurer};
 use serde_json::{Map, Value, json};
 
 use crate::args::Compare;
@@ -23,9 +24,10 @@ pub fn run(args: &Compare) -> anyhow::Result<()> {
             mean.height()
         );
     }
-    let measured = noisefloor_metrics::measure(&test, &reference)?;
+    let measurer = Measurer::new(&reference, None)?;
+    let measured = measurer.measure(&test)?;
     if args.json {
-        let values: Map<String, Value> = noisefloor_metrics::METRICS
+        let values: Map<String, Value> = METRICS
             .iter()
             .map(|m| (m.id.to_owned(), measured.values.get(m.id).copied().flatten().into()))
             .collect();
@@ -34,15 +36,15 @@ pub fn run(args: &Compare) -> anyhow::Result<()> {
             "reference": args.reference,
             "metrics": values,
             "reference_standard_error": measured.reference_se,
-            "reference_noise": reference.squared_error().to_string(),
-            "non_finite_values": measured.non_finite,
+            "reference_noise": measurer.correction(),
+            "non_finite_values": measured.non_finite_values,
         });
         println!("{}", serde_json::to_string_pretty(&object)?);
         return Ok(());
     }
-    println!("reference noise: {}", reference.squared_error());
+    println!("reference noise: {}", measurer.correction());
     let mut rows = vec![vec!["metric".into(), "value".into(), "± reference".into(), "better".into()]];
-    for metric in noisefloor_metrics::METRICS {
+    for metric in METRICS {
         let value = measured.values.get(metric.id).copied().flatten();
         rows.push(vec![
             metric.id.into(),
@@ -52,8 +54,12 @@ pub fn run(args: &Compare) -> anyhow::Result<()> {
         ]);
     }
     print!("{}", aligned(&rows));
-    if measured.non_finite > 0 {
-        println!("{} values of {} are not finite; their pixels are left out", measured.non_finite, args.test.display());
+    if measured.non_finite_values > 0 {
+        println!(
+            "{} values of {} are not finite; their pixels are left out",
+            measured.non_finite_values,
+            args.test.display()
+        );
     }
     Ok(())
 }

@@ -16,14 +16,22 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<()> {
     }
     for entry in entries {
         let card = context.registry.build(entry.id, &Map::new())?.denoiser.card();
-        println!("{}\n  {}\n  source: {} ({})", entry.id, entry.summary, card.citation.text, card.citation.key);
+        println!(
+            "{}\n  {}\n  source: {} ({})",
+            entry.id, entry.summary, card.citation.text, card.citation.key
+        );
         let needs: Vec<String> = card.needs.iter().map(Need::to_string).collect();
-        println!("  needs: {}", if needs.is_empty() { "nothing but the colour".into() } else { needs.join(", ") });
+        println!(
+            "  needs: {}",
+            if needs.is_empty() { "nothing but the colour".into() } else { needs.join(", ") }
+        );
         let defaults = (entry.defaults)();
         let rows: Vec<Vec<String>> = entry
             .params
             .iter()
-            .map(|p| vec![format!("    {} = {}", p.name, defaults[p.name]), format!("[{}]  {}", p.range, p.about)])
+            .map(|p| {
+                vec![format!("    {} = {}", p.name, defaults[p.name]), format!("[{}]  {}", p.range, p.about)]
+            })
             .collect();
         // Left-aligned second column: pad the first only.
         let width = rows.iter().map(|r| r[0].chars().count()).max().unwrap_or(0);
@@ -33,7 +41,10 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<()> {
         println!();
     }
     println!("guarded(ID)\n  any method, projected into the confidence interval of the input mean");
-    print!("{}", aligned(&[vec!["    guard_level = 0.99".into(), "[two-sided confidence in (0, 1)]".into()]]));
+    print!(
+        "{}",
+        aligned(&[vec!["    guard_level = 0.99".into(), "[two-sided confidence in (0, 1)]".into()]])
+    );
     Ok(())
 }
 

@@ -10,8 +10,9 @@ pub fn run(args: &Report) -> anyhow::Result<()> {
         bail!("--viewer-budget is {}, expected a size in MB from 0", args.viewer_budget);
     }
     let summary = noisefloor_harness::reanalyse(&args.dir, args.recompute)?;
-    let options = ReportOptions { viewer_budget_bytes: (args.viewer_budget * 1e6) as usize };
-    let files = noisefloor_report::write_report(&args.dir, &summary, &options)?;
+    let options =
+        ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
+    let files = noisefloor_report::write_report_with(&args.dir, &summary, &options)?;
     println!("report: {}", files.index.display());
     Ok(())
 }

@@ -7,7 +7,6 @@ use indicatif::ProgressBar;
 use noisefloor_harness::record::{Outcome, Record};
 use noisefloor_harness::summary::Summary;
 use noisefloor_harness::{HarnessError, MethodRow, Observer, Stage, Study, StudyRun, Workload};
-use noisefloor_report::ReportOptions;
 
 use crate::args::Run;
 use crate::context::{Context, default_cache, use_threads};
@@ -36,7 +35,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
     let ended = noisefloor_harness::run(&request);
     watcher.bar.finish_and_clear();
     let summary = ended.map_err(|error| explain(error, &out))?;
-    let files = noisefloor_report::write_report(&out, &summary, &ReportOptions::default())?;
+    let files = noisefloor_report::write_report(&out, &summary)?;
     if !args.quiet {
         print!("{}", summary_table(&summary));
         println!("\nreport: {}", files.index.display());
@@ -54,8 +53,10 @@ fn fail_on_violations(summary: &Summary) -> anyhow::Result<()> {
 }
 
 fn explain(error: HarnessError, out: &Path) -> anyhow::Error {
-    anyhow::Error::new(error)
-        .context(format!("the run stopped; finished cells are kept in {} and a new run continues there", out.display()))
+    anyhow::Error::new(error).context(format!(
+        "the run stopped; finished cells are kept in {} and a new run continues there",
+        out.display()
+    ))
 }
 
 fn find_study(args: &Run) -> anyhow::Result<Study> {

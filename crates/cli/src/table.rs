@@ -35,7 +35,8 @@ pub fn summary_table(summary: &Summary) -> String {
                 continue;
             }
             let value = |c: Option<&noisefloor_harness::summary::CellSummary>, ratio: bool| {
-                let of = c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
+                let of =
+                    c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
                 of.map_or_else(|| "–".into(), |interval| with_interval(interval))
             };
             rows.push(vec![
@@ -44,7 +45,8 @@ pub fn summary_table(summary: &Summary) -> String {
                 value(first, true),
                 value(last, false),
                 value(last, true),
-                last.and_then(|c| c.denoise_seconds).map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3)),
+                last.and_then(|c| c.denoise_seconds)
+                    .map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3)),
             ]);
         }
         out.push_str(&aligned(&rows));
@@ -63,7 +65,9 @@ pub fn summary_table(summary: &Summary) -> String {
 fn with_interval(interval: &Interval) -> String {
     match (interval.below, interval.low, interval.high) {
         (Some(limit), ..) => format!("< {}", number(limit)),
-        (None, Some(low), Some(high)) => format!("{} ± {}", number(interval.value), number(0.5 * (high - low))),
+        (None, Some(low), Some(high)) => {
+            format!("{} ± {}", number(interval.value), number(0.5 * (high - low)))
+        }
         _ => number(interval.value),
     }
 }

@@ -22,17 +22,6 @@ pub enum SquaredError {
     Uncorrected,
 }
 
-impl std::fmt::Display for SquaredError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Exact => "the truth is exact",
-            Self::Halves => "taken out by the product of the residuals to two independent halves",
-            Self::SubtractVariance => "taken out by subtracting the variance of the reference",
-            Self::Uncorrected => "not taken out: the reference carries neither halves nor a variance",
-        })
-    }
-}
-
 impl Reference {
     /// Fewest parts of a reference that is rendered here.
     pub const LEAST_PARTS: usize = 8;
