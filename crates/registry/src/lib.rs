@@ -16,13 +16,14 @@ mod tests;
 
 use noisefloor_denoiser::{Entry, MC_ENTRY, Registry};
 use noisefloor_geometric::{AS_WRITTEN_ENTRY, CORRECTED_ENTRY};
+use noisefloor_virtual_flash::ENTRY as VIRTUAL_FLASH_ENTRY;
 
 pub use table::{methods_table, params_table};
 
 /// The built-in methods in display order.
 #[must_use]
 pub fn builtin() -> &'static [Entry] {
-    const BUILTIN: &[Entry] = &[MC_ENTRY, CORRECTED_ENTRY, AS_WRITTEN_ENTRY];
+    const BUILTIN: &[Entry] = &[MC_ENTRY, VIRTUAL_FLASH_ENTRY, CORRECTED_ENTRY, AS_WRITTEN_ENTRY];
     BUILTIN
 }
 

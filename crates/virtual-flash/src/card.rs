@@ -1,0 +1,110 @@
+//! What the method needs and what may be claimed for its settings.
+
+use noisefloor_denoiser::{Citation, Claim, Claims, MethodCard, Need};
+
+use crate::params::Step;
+use crate::{GuideKind, Params, SpreadKind, TestKind};
+
+/// The source work.
+pub const CITATION: Citation = Citation {
+    key: "moon2013flash",
+    text: "B. Moon, J. Y. Jun, J. Lee, K. Kim, T. Hachisuka, S.-E. Yoon, Robust Image Denoising Using a Virtual Flash Image \
+           for Monte Carlo Ray Tracing, Computer Graphics Forum 32(1), 2013",
+};
+
+pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
+    let mut card = MethodCard::new(id, name(params), CITATION);
+    card.needs = needs(params);
+    card.claims = claims(params, steps);
+    card.notes = notes(params);
+    card
+}
+
+fn name(params: &Params) -> String {
+    let mut name = String::from("Virtual flash");
+    match params.guide {
+        GuideKind::Flash => {}
+        GuideKind::Color => name.push_str(", colour guide"),
+        GuideKind::None => name.push_str(", no guide"),
+    }
+    if params.steps == 1 {
+        name.push_str(", one step");
+    }
+    if !params.homogeneous {
+        name.push_str(", all pixels");
+    }
+    name
+}
+
+fn needs(params: &Params) -> Vec<Need> {
+    let mut needs = Vec::new();
+    if params.guide == GuideKind::Flash {
+        needs.extend([Need::Flash, Need::FlashVariance]);
+    }
+    if params.homogeneous || params.guide == GuideKind::Color {
+        needs.push(Need::ColorVariance);
+        needs.push(Need::Samples(2));
+    }
+    if params.homogeneous && params.steps == 2 && params.second_spread == SpreadKind::Halves {
+        needs.push(Need::ColorHalves);
+    }
+    needs
+}
+
+/// One step keeps D inside the interval of its own test, which carries the bound of Theorem 3.1 (App. A). In two steps with
+/// the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds t₁·s/√n with
+/// probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
+fn claims(params: &Params, steps: &[Step]) -> Claims {
+    let mut claims = Claims::default();
+    // The luminance test bounds luminance alone; without the test nothing is bounded.
+    let per_channel = params.homogeneous && params.test != TestKind::Luminance;
+    claims.consistent = per_channel;
+    if !per_channel {
+        return claims;
+    }
+    let claim = |name, terms, level, proven| Claim { name, terms, level, proven };
+    match steps {
+        [only] => {
+            let level = only.level;
+            claims.enclosure.push(claim("interval", vec![(1.0, level)], level, true));
+            claims.error_bound.push(claim("Theorem 3.1", vec![(2.0, level)], level, true));
+        }
+        [first, second] => {
+            let (one, two) = (first.level, second.level);
+            if params.second_spread == SpreadKind::Raw {
+                claims.enclosure.push(claim("composite", vec![(1.0, one), (1.0, two)], one, true));
+                claims.error_bound.push(claim("composite", vec![(2.0, one), (1.0, two)], one, true));
+            }
+            claims.error_bound.push(claim("paper, as printed", vec![(2.0, two)], two, false));
+        }
+        _ => {}
+    }
+    claims
+}
+
+fn notes(params: &Params) -> Vec<String> {
+    let mut notes = Vec::new();
+    if params.homogeneous {
+        notes.push(
+            "bounds are proven for independent normal samples of a fixed number per pixel, per pixel and channel"
+                .into(),
+        );
+    }
+    match params.test {
+        TestKind::Luminance if params.homogeneous => {
+            notes.push("the luminance test bounds luminance only, and no channel".into());
+        }
+        _ => {}
+    }
+    if params.homogeneous && params.steps == 2 {
+        notes.push(match params.second_spread {
+            SpreadKind::Raw => "step 2 tests with the input's standard error".into(),
+            SpreadKind::Propagated => "step 2 tests with a propagated standard error: no proven bound".into(),
+            SpreadKind::Halves => "step 2 tests with filtered half buffers: no proven bound".into(),
+        });
+    }
+    if !params.homogeneous {
+        notes.push("without homogeneous pixels nothing is claimed and the bias stays".into());
+    }
+    notes
+}
