@@ -5,14 +5,15 @@ use noisefloor_frame::Image;
 use crate::measurer::{Measurer, aggregate};
 use crate::{METRICS, MetricError};
 
-/// Side of the square blocks that are resampled together, in pixels: neighbouring pixels share their error after denoising.
+/// Side of the square blocks that are resampled together, in pixels: neighbouring pixels share their error
+/// after denoising.
 pub const BLOCK_SIDE: usize = 32;
 
-/// Standard error of each metric within one image: the spread of the metric over `replicates` images that are put together from
-/// blocks of about 32×32 pixels, drawn with replacement (block bootstrap, Künsch 1989).
+/// Standard error of each metric within one image: the spread of the metric over `replicates` images that are
+/// put together from blocks of about 32×32 pixels, drawn with replacement (block bootstrap, Künsch 1989).
 ///
-/// It says how much the number depends on which parts of this image were looked at, and nothing about other random seeds.
-/// Metrics without a spread (fewer than two blocks, undefined values) are absent.
+/// It says how much the number depends on which parts of this image were looked at, and nothing about other
+/// random seeds. Metrics without a spread (fewer than two blocks, undefined values) are absent.
 ///
 /// # Errors
 /// [`MetricError::Shape`] if the image has not the shape of the reference.
@@ -48,8 +49,8 @@ pub fn block_bootstrap(
     Ok(out)
 }
 
-/// Pixels of each block that pass `keep`; blocks without any are left out. The sides are as near to [`BLOCK_SIDE`] as an even
-/// division of the image allows.
+/// Pixels of each block that pass `keep`; blocks without any are left out. The sides are as near to
+/// [`BLOCK_SIDE`] as an even division of the image allows.
 pub(crate) fn blocks(width: usize, height: usize, keep: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
     let count = |size: usize| ((size + BLOCK_SIDE / 2) / BLOCK_SIDE).max(1);
     let (columns, rows) = (count(width), count(height));
@@ -66,8 +67,8 @@ pub(crate) fn blocks(width: usize, height: usize, keep: impl Fn(usize) -> bool) 
     blocks
 }
 
-/// A number below `limit` from the SplitMix64 sequence (Steele, Lea, Flood 2014); `limit` is far below 2³², so the bias of
-/// the multiplication is negligible.
+/// A number below `limit` from the SplitMix64 sequence (Steele, Lea, Flood 2014); `limit` is far below 2³²,
+/// so the bias of the multiplication is negligible.
 fn below(state: &mut u64, limit: usize) -> usize {
     *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
     let mut z = *state;

@@ -1,11 +1,13 @@
 //! One table of image metrics: id, formula, epsilon, averaging order, direction, non-finite policy.
 //!
-//! [`METRICS`] says what each number is; [`Measurer`] computes all of them at once for any number of images against one
-//! reference, over the image and per pixel class, and says how much of each number's uncertainty is the reference's own.
+//! [`METRICS`] says what each number is; [`Measurer`] computes all of them at once for any number of images
+//! against one reference, over the image and per pixel class, and says how much of each number's uncertainty
+//! is the reference's own.
 //!
-//! The noise of a reference must not pass for error. Where the formula allows, it is taken out: the product of the residuals
-//! to two independent halves is an unbiased squared error; a reference with a variance and no halves has that variance
-//! subtracted. Both can give values at or below zero when the error is smaller than the reference can show.
+//! The noise of a reference must not pass for error. Where the formula allows, it is taken out: the product
+//! of the residuals to two independent halves is an unbiased squared error; a reference with a variance and
+//! no halves has that variance subtracted. Both can give values at or below zero when the error is smaller
+//! than the reference can show.
 //!
 //! ```
 //! use noisefloor_frame::{Image, Reference};

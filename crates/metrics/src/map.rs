@@ -13,7 +13,8 @@ pub enum ErrorKind {
     Absolute,
     /// |x − r|/√(max(r,0)²+ε), ε = 0.01.
     Relative,
-    /// Squared error with the reference's noise taken out, as in MSE, whose mean over the map is the MSE; may be negative.
+    /// Squared error with the reference's noise taken out, as in MSE, whose mean over the map is the MSE; may
+    /// be negative.
     Squared,
     /// The same over max(r,0)²+ε; its mean is rMSE.
     RelativeSquared,

@@ -27,8 +27,8 @@ pub struct Measured {
     pub values: Values,
     /// Per class that has pixels.
     pub classes: BTreeMap<String, Values>,
-    /// Metric id to the standard error that the reference's own noise contributes; only corrected metrics, and only where the
-    /// reference tells.
+    /// Metric id to the standard error that the reference's own noise contributes; only corrected metrics,
+    /// and only where the reference tells.
     pub reference_se: BTreeMap<String, f64>,
     /// Values of the image that are NaN or infinite.
     pub non_finite_values: usize,
@@ -117,15 +117,16 @@ impl<'a> Measurer<'a> {
         }
     }
 
-    /// Metric id to the standard error that the reference would contribute even for a perfect image: no smaller error can be
-    /// shown with it. Only corrected metrics of a reference whose noise is known.
+    /// Metric id to the standard error that the reference would contribute even for a perfect image: no
+    /// smaller error can be shown with it. Only corrected metrics of a reference whose noise is known.
     #[must_use]
     pub fn floor(&self) -> BTreeMap<String, f64> {
         self.noise.floor(self)
     }
 
-    /// Metric id to a figure that bounds the remaining bias: for `relmse` the mean of var(r)/(r²+ε), the second-order term of
-    /// the noisy denominator, relative to the metric. Empty if the reference's variance is unknown.
+    /// Metric id to a figure that bounds the remaining bias: for `relmse` the mean of var(r)/(r²+ε), the
+    /// second-order term of the noisy denominator, relative to the metric. Empty if the reference's variance
+    /// is unknown.
     #[must_use]
     pub fn bias(&self) -> BTreeMap<String, f64> {
         self.noise.bias(self)

@@ -1,18 +1,21 @@
-//! How much of a metric's uncertainty is the reference's own: common to all replicates, so no average removes it.
+//! How much of a metric's uncertainty is the reference's own: common to all replicates, so no average removes
+//! it.
 //!
-//! Notation, per pixel and channel: d = x − μ the true residual, A = μ + α and B = μ + β the halves. The corrected squared
-//! error (x−A)(x−B) = d² − d(α+β) + αβ is unbiased; what the reference adds is the spread of the weighted mean of −d(α+β) + αβ.
+//! Notation, per pixel and channel: d = x − μ the true residual, A = μ + α and B = μ + β the halves. The
+//! corrected squared error (x−A)(x−B) = d² − d(α+β) + αβ is unbiased; what the reference adds is the spread
+//! of the weighted mean of −d(α+β) + αβ.
 //!
-//! With independent parts P_k (at least 2 per half) the sum is linear in each half, so deleting one part at a time has a
-//! closed form: V_A = Σ_k L_k²/(n_A(n_A−1)) with L_k the weighted mean of (x−B)(P_k−A), likewise V_B (delete-one
-//! jackknife, Miller 1974, per half). Both contain the product term αβ; V_AB, estimated from the doubly centred products, takes it
-//! out once: V = V_A + V_B − V_AB, and never less than V_AB.
+//! With independent parts P_k (at least 2 per half) the sum is linear in each half, so deleting one part at a
+//! time has a closed form: V_A = Σ_k L_k²/(n_A(n_A−1)) with L_k the weighted mean of (x−B)(P_k−A), likewise
+//! V_B (delete-one jackknife, Miller 1974, per half). Both contain the product term αβ; V_AB, estimated from
+//! the doubly centred products, takes it out once: V = V_A + V_B − V_AB, and never less than V_AB.
 //!
-//! With halves only, (x−(A+B)/2)(A−B) has the same variance as what the reference adds (exactly so for normal noise of equal
-//! halves); its sums over blocks of 32×32 pixels count as independent.
+//! With halves only, (x−(A+B)/2)(A−B) has the same variance as what the reference adds (exactly so for normal
+//! noise of equal halves); its sums over blocks of 32×32 pixels count as independent.
 //!
-//! With a variance v only, (x−r)² − v has the variance 4d²v + 2v² for normal noise, estimated without bias by 4(x−r)²v − 2v².
-//! Pixels count as independent, and the channels of a pixel as erring alike: three times the sum over channels, an upper limit.
+//! With a variance v only, (x−r)² − v has the variance 4d²v + 2v² for normal noise, estimated without bias by
+//! 4(x−r)²v − 2v². Pixels count as independent, and the channels of a pixel as erring alike: three times the
+//! sum over channels, an upper limit.
 
 use std::collections::BTreeMap;
 
@@ -179,7 +182,8 @@ fn from_halves(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2
     })
 }
 
-/// For a perfect image only αβ is left, of variance σ⁴, where E(A−B)⁴ = 12σ⁴ for normal noise of equal halves.
+/// For a perfect image only αβ is left, of variance σ⁴, where E(A−B)⁴ = 12σ⁴ for normal noise of equal
+/// halves.
 fn product_from_halves(measurer: &Measurer<'_>) -> [f64; 2] {
     let Some([a, b]) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
     pixel_variance(measurer, &measurer.valid, |i| {
@@ -187,8 +191,8 @@ fn product_from_halves(measurer: &Measurer<'_>) -> [f64; 2] {
     })
 }
 
-/// Sum over pixels and channels of a variance per value, three times because the channels of a pixel may err alike, over the
-/// squared count; for both weights.
+/// Sum over pixels and channels of a variance per value, three times because the channels of a pixel may err
+/// alike, over the squared count; for both weights.
 fn pixel_variance(measurer: &Measurer<'_>, valid: &[bool], variance: impl Fn(usize) -> f64) -> [f64; 2] {
     let n = valid.len();
     let mut sums = [0.0; 2];

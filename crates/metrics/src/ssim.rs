@@ -1,13 +1,13 @@
-//! Structural similarity (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image Quality Assessment: From Error
-//! Visibility to Structural Similarity", IEEE Trans. Image Processing 13(4), 2004), with a mask.
+//! Structural similarity (Z. Wang, A. C. Bovik, H. R. Sheikh, E. P. Simoncelli, "Image Quality Assessment:
+//! From Error Visibility to Structural Similarity", IEEE Trans. Image Processing 13(4), 2004), with a mask.
 
 const RADIUS: usize = 5;
 const SIGMA: f64 = 1.5;
 const C1: f64 = 0.01 * 0.01;
 const C2: f64 = 0.03 * 0.03;
 
-/// SSIM of each pixel of two planes with values in [0, 1]. Pixels that are not `valid` enter no window; their own entry is
-/// meaningless.
+/// SSIM of each pixel of two planes with values in [0, 1]. Pixels that are not `valid` enter no window; their
+/// own entry is meaningless.
 pub(crate) fn ssim_map(x: &[f64], y: &[f64], valid: &[bool], width: usize) -> Vec<f64> {
     let mask: Vec<f64> = valid.iter().map(|&v| f64::from(u8::from(v))).collect();
     let weighted = |f: &dyn Fn(usize) -> f64| -> Vec<f64> {

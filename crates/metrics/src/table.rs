@@ -25,15 +25,16 @@ pub struct Metric {
     pub unit: &'static str,
     /// Whether the reference's noise is taken out.
     pub reference_noise_removed: bool,
-    /// Power of the error that it measures: 2 for squared errors, 1 for their root, `None` where plain Monte Carlo has no fixed
-    /// rate. Under independent sampling its expectation is c/n (2) for plain Monte Carlo.
+    /// Power of the error that it measures: 2 for squared errors, 1 for their root, `None` where plain Monte
+    /// Carlo has no fixed rate. Under independent sampling its expectation is c/n (2) for plain Monte Carlo.
     pub order: Option<u32>,
     /// What happens to values that are NaN or infinite.
     pub non_finite: &'static str,
 }
 
 impl Metric {
-    /// The formula with everything that a reader needs beside it: averaging order and what happens to the reference's noise.
+    /// The formula with everything that a reader needs beside it: averaging order and what happens to the
+    /// reference's noise.
     #[must_use]
     pub fn formula_text(&self) -> String {
         let noise = if self.reference_noise_removed {
@@ -52,8 +53,8 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "mse",
         name: "MSE",
-        formula: "mean (x−r)², with (x−r)² taken as (x−r_A)(x−r_B) from the reference's halves, \
-                  as (x−r)²−var(r) where it has a variance only, as it stands where it is exact",
+        formula: "mean (x−r)², with (x−r)² taken as (x−r_A)(x−r_B) from the reference's halves, as \
+                  (x−r)²−var(r) where it has a variance only, as it stands where it is exact",
         epsilon: None,
         averaging: "mean over pixels and channels",
         lower_is_better: true,
@@ -89,8 +90,8 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "relmse_trimmed",
         name: "rMSE trimmed",
-        formula: "mean (x−r)²/(max(r,0)²+ε), ε = 0.01, without the 0.1 % of the pixels (rounded up) where its mean over the \
-                  channels is largest",
+        formula: "mean (x−r)²/(max(r,0)²+ε), ε = 0.01, without the 0.1 % of the pixels (rounded up) where \
+                  its mean over the channels is largest",
         epsilon: Some(EPSILON),
         averaging: "ratio per pixel and channel, mean over channels, then mean over the pixels kept",
         lower_is_better: true,
@@ -102,8 +103,8 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "psnr",
         name: "PSNR",
-        formula: "−10·log10 mean (T(x)−T(r))², T(x) = sRGB curve of clamp(x, 0, 1) at exposure 1, peak 1; no value for equal \
-                  images",
+        formula: "−10·log10 mean (T(x)−T(r))², T(x) = sRGB curve of clamp(x, 0, 1) at exposure 1, peak 1; \
+                  no value for equal images",
         epsilon: None,
         averaging: "mean over pixels and channels before the logarithm",
         lower_is_better: false,
@@ -115,9 +116,9 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "ssim",
         name: "SSIM",
-        formula: "structural similarity (Wang et al. 2004) of Rec. 709 luma of T(x) and T(r), T as for PSNR; Gaussian window 11×11, \
-                  σ = 1.5, K1 = 0.01, K2 = 0.03, peak 1; at the border and beside left-out pixels the window is clipped and its \
-                  weights are normalised",
+        formula: "structural similarity (Wang et al. 2004) of Rec. 709 luma of T(x) and T(r), T as for \
+                  PSNR; Gaussian window 11×11, σ = 1.5, K1 = 0.01, K2 = 0.03, peak 1; at the border and \
+                  beside left-out pixels the window is clipped and its weights are normalised",
         epsilon: None,
         averaging: "mean over pixels",
         lower_is_better: false,

@@ -220,7 +220,8 @@ fn bootstrap_of_a_uniform_error_has_no_spread_and_tiny_images_have_none() {
 
 #[test]
 fn bootstrap_error_is_that_of_a_mean_over_blocks() {
-    // 6×4 blocks of 32×32 pixels whose squared error is 0 or 1: the standard error of a mean of 24 such values with 12 ones.
+    // 6×4 blocks of 32×32 pixels whose squared error is 0 or 1: the standard error of a mean of 24 such
+    // values with 12 ones.
     let reference = Reference::exact(Image::filled(192, 128, 3, 0.0));
     let test = Image::from_fn(192, 128, 3, |_, x, y| ((x / 32 + y / 32) % 2) as f32);
     let measurer = Measurer::new(&reference, None).unwrap();

@@ -101,12 +101,13 @@ fn nothing(reference: &mut Reference) {
 /// Takes statistics away from a reference.
 type Strip = fn(&mut Reference);
 
-/// A way to strip a reference, and up to which factor the predicted variance may exceed the actual one: 3 where the channels count as
-/// dependent, which these are not.
+/// A way to strip a reference, and up to which factor the predicted variance may exceed the actual one: 3
+/// where the channels count as dependent, which these are not.
 const STATISTICS: [(&str, Strip, f64); 3] =
     [("parts", keep, 1.0), ("halves", halves_only, 1.0), ("variance", variance_only, 3.0)];
 
-/// Predicted over actual variance, and the sampling error of that: an empirical variance has a relative standard error of √(2/(R−1)).
+/// Predicted over actual variance, and the sampling error of that: an empirical variance has a relative
+/// standard error of √(2/(R−1)).
 fn ratio(predicted: impl Iterator<Item = f64> + Clone, actual: f64) -> (f64, f64) {
     let n = REFERENCES as f64;
     let (mean, spread) = mean_and_variance(predicted);
@@ -127,8 +128,9 @@ fn corrected_errors_are_unbiased_and_their_spread_is_predicted() {
             );
 
             let (ratio, error) = ratio(trials.iter().map(|t| t.standard_error.powi(2)), variance);
-            // For a perfect image the estimate is cut at the floor from below, which widens it. The variance of a reference of eight
-            // parts is itself uncertain by 2/7 of its square, beside the 2 that count: hence 7/8.
+            // For a perfect image the estimate is cut at the floor from below, which widens it. The variance
+            // of a reference of eight parts is itself uncertain by 2/7 of its square, beside the 2 that
+            // count: hence 7/8.
             let widest = if size == 0.0 { 2.0 * factor } else { factor };
             let (low, high) = (7.0 / 8.0 * (1.0 - 4.0 * error), widest * (1.0 + 4.0 * error));
             assert!(ratio > low && ratio < high, "{name} {size}: {ratio}, limits {low} to {high}");

@@ -1,4 +1,5 @@
-//! Stochastic error bounds |D−μ| ≤ Σ factorᵢ·t(levelᵢ)·s/√n (moon2013flash, Theorem 3.1 and its compositions).
+//! Stochastic error bounds |D−μ| ≤ Σ factorᵢ·t(levelᵢ)·s/√n (moon2013flash, Theorem 3.1 and its
+//! compositions).
 
 use serde::{Deserialize, Serialize};
 
@@ -45,7 +46,8 @@ impl Tally for BoundTally {
     }
 }
 
-/// Half-widths Σ factorᵢ·t(levelᵢ)·s/√n in the order of the means; infinite where there are fewer than 2 samples.
+/// Half-widths Σ factorᵢ·t(levelᵢ)·s/√n in the order of the means; infinite where there are fewer than 2
+/// samples.
 ///
 /// # Errors
 /// [`ShapeError`] if the slices do not belong together.
@@ -70,9 +72,10 @@ pub fn half_widths(observed: &Observed<'_>, terms: &[(f64, Level)]) -> Result<Ve
 
 /// Counts where |D−r| exceeds its bound, for all pixels (index 0) and each group (1 + group).
 ///
-/// Allowing for the noise of the truth, a violation is |D−r| > √(bound² + t_r²·v_r) + 4·eps·max(|D|,|r|), with t_r the normal
-/// critical value of `level`, v_r the variance of the truth and eps that of f32; uncorrected, v_r = 0. A D that is NaN or
-/// infinite violates its bound. Left out are pixels that do not take part, infinite bounds and a truth that is not finite.
+/// Allowing for the noise of the truth, a violation is |D−r| > √(bound² + t_r²·v_r) + 4·eps·max(|D|,|r|),
+/// with t_r the normal critical value of `level`, v_r the variance of the truth and eps that of f32;
+/// uncorrected, v_r = 0. A D that is NaN or infinite violates its bound. Left out are pixels that do not take
+/// part, infinite bounds and a truth that is not finite.
 ///
 /// # Errors
 /// [`ShapeError`] if the slices do not belong together.

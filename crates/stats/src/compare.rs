@@ -21,8 +21,8 @@ pub enum Direction {
 pub enum Family {
     /// Every pair.
     AllPairs,
-    /// Each row with the best one. The best is chosen from the same data, which the adjustment does not account for: with several
-    /// equally good rows it finds a difference more often than the level says.
+    /// Each row with the best one. The best is chosen from the same data, which the adjustment does not
+    /// account for: with several equally good rows it finds a difference more often than the level says.
     WithBest,
 }
 
@@ -72,10 +72,11 @@ pub struct Comparison {
     pub pairs: Vec<Pair>,
 }
 
-/// Ranks the rows and compares pairs of them on the same replicates, Holm-adjusted within the family, at a two-sided `level`.
+/// Ranks the rows and compares pairs of them on the same replicates, Holm-adjusted within the family, at a
+/// two-sided `level`.
 ///
-/// Errors are compared by their log ratio, or by their difference where a corrected error is not positive. Pairs with fewer than two
-/// common replicates cannot be told apart.
+/// Errors are compared by their log ratio, or by their difference where a corrected error is not positive.
+/// Pairs with fewer than two common replicates cannot be told apart.
 #[must_use]
 pub fn compare(rows: &[Row<'_>], direction: Direction, family: Family, level: Level) -> Comparison {
     let mut ranked: Vec<(usize, f64)> = rows

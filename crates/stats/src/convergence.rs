@@ -11,7 +11,8 @@ use crate::{Interval, Level, Levels, Plateau, Slope, plateau, replicate_interval
 pub enum Verdict {
     /// Still falling at the top of the range, and no sign of a floor.
     Consistent,
-    /// Flat at the top of the range, at a bias that is significantly above zero and above what the reference can show.
+    /// Flat at the top of the range, at a bias that is significantly above zero and above what the reference
+    /// can show.
     Plateaus,
     /// Neither can be said.
     Undecided,
@@ -46,26 +47,32 @@ pub struct Convergence {
     pub sentence: String,
 }
 
-/// Tail slopes above −0.25 count as flat (squared errors; half of it for their roots): four times the samples take less than a third
-/// off the error, where plain Monte Carlo takes three quarters.
+/// Tail slopes above −0.25 count as flat (squared errors; half of it for their roots): four times the samples
+/// take less than a third off the error, where plain Monte Carlo takes three quarters.
 const FLAT: f64 = 0.25;
 /// Tail slopes below −0.5 count as falling (squared errors).
 const FALLING: f64 = 0.5;
 /// Head and tail are the first and the last factor of this in samples.
 const RANGE: f64 = 4.0;
 
-/// Judges the convergence of a metric of `order` 2 (squared errors) or 1 (their roots) at a two-sided `level`.
+/// Judges the convergence of a metric of `order` 2 (squared errors) or 1 (their roots) at a two-sided
+/// `level`.
 ///
-/// The slope is that of [`slope`]; the floor b is that of [`plateau`], fitted to squared errors. All intervals are at `level`:
+/// The slope is that of [`slope`]; the floor b is that of [`plateau`], fitted to squared errors. All
+/// intervals are at `level`:
 ///
-/// * **plateaus** if the interval of the tail slope lies above −0.25, that of b lies above 0, and b is above the standard error that the
-///   reference contributes at the top level;
-/// * **consistent** if the interval of the tail slope lies below −0.5, and not both b and the flattening lie above 0 with
-///   their intervals: a curve that falls ever more slowly towards a visible floor is not called consistent, while a
-///   steady power law slower than 1/n is;
+/// * **plateaus** if the interval of the tail slope lies above −0.25, that of b lies above 0, and b is above
+///   the standard error that the reference contributes at the top level;
+/// * **consistent** if the interval of the tail slope lies below −0.5, and not both b and the flattening lie
+///   above 0 with their intervals: a curve that falls ever more slowly towards a visible floor is not called
+///   consistent, while a steady power law slower than 1/n is;
 /// * **undecided** otherwise, and always with fewer than three levels or two replicates.
 ///
-/// A finite range never proves consistency: the word says that what was rendered shows no floor.
+/// A finite range never proves consistency: the word says that what was rendered shows no floor. On simulated
+/// series (4 to 1024 spp, four replicates, 400 series each) with 3 % noise per frame, 1/n and n^−0.7 are
+/// called consistent in at least 99 %, a floor of 20 times the rest at the top is named in all, and neither a
+/// steady power law nor noise of the reference is ever called a plateau; with 10 % noise a floor as large as
+/// the rest passes for consistent in 6 %.
 #[must_use]
 pub fn convergence(levels: &Levels, order: u32, level: Level) -> Convergence {
     let power = if order == 1 { 0.5 } else { 1.0 };
@@ -175,7 +182,8 @@ mod tests {
 
     const TRIALS: u64 = 400;
 
-    /// Shares of the verdicts [consistent, plateaus, undecided] over series with `noise` relative standard deviation per frame.
+    /// Shares of the verdicts [consistent, plateaus, undecided] over series with `noise` relative standard
+    /// deviation per frame.
     fn shares(order: u32, noise: f64, reference_se: f64, error: impl Fn(f64) -> f64) -> [f64; 3] {
         let mut normals = Normals::new(17);
         let mut counts = [0u32; 3];

@@ -44,13 +44,16 @@ impl Tally for CoverageTally {
     }
 }
 
-/// Counts pixel-channels whose interval at `level` covers the truth, for all pixels (index 0) and each group (1 + group).
+/// Counts pixel-channels whose interval at `level` covers the truth, for all pixels (index 0) and each group
+/// (1 + group).
 ///
-/// Covered means |x̄−r| ≤ √((t·s/√n)² + t_r²·v_r) + 4·eps·max(|x̄|,|r|), with t Student's critical value for n−1 degrees of
-/// freedom, t_r the normal one, v_r the variance of the truth and eps that of f32. Without the allowance, v_r = 0. The
-/// allowance assumes near-normal errors of both, so a noisy truth should have at least 16 times the samples.
+/// Covered means |x̄−r| ≤ √((t·s/√n)² + t_r²·v_r) + 4·eps·max(|x̄|,|r|), with t Student's critical value for
+/// n−1 degrees of freedom, t_r the normal one, v_r the variance of the truth and eps that of f32. Without the
+/// allowance, v_r = 0. The allowance assumes near-normal errors of both, so a noisy truth should have at
+/// least 16 times the samples.
 ///
-/// Pixels with fewer than 2 samples have no interval and are left out, like pixel-channels that are not finite.
+/// Pixels with fewer than 2 samples have no interval and are left out, like pixel-channels that are not
+/// finite.
 ///
 /// # Errors
 /// [`ShapeError`] if the slices do not belong together.

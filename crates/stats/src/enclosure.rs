@@ -1,4 +1,5 @@
-//! The certain half of the theorem: an average over the homogeneous set stays in the interval of the input mean.
+//! The certain half of the theorem: an average over the homogeneous set stays in the interval of the input
+//! mean.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +9,8 @@ use crate::{Observed, ShapeError};
 /// How close an output came to leaving its intervals.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Enclosure {
-    /// Largest |D−x̄|/(half-width·(1+1e-6) + 8·eps·|x̄|) over all pixel-channels; 0/0 counts as 0, a positive distance over zero
-    /// and a D that is not finite as the largest finite number.
+    /// Largest |D−x̄|/(half-width·(1+1e-6) + 8·eps·|x̄|) over all pixel-channels; 0/0 counts as 0, a positive
+    /// distance over zero and a D that is not finite as the largest finite number.
     pub worst_ratio: f64,
     /// Planar index of the worst pixel-channel.
     pub worst_index: usize,
@@ -17,7 +18,8 @@ pub struct Enclosure {
     pub held: bool,
 }
 
-/// Checks |D−x̄| ≤ half-width everywhere, up to the rounding of f32 values. Pixels without an interval (infinite half-width) pass.
+/// Checks |D−x̄| ≤ half-width everywhere, up to the rounding of f32 values. Pixels without an interval
+/// (infinite half-width) pass.
 ///
 /// # Errors
 /// [`ShapeError`] if the slices do not belong together.

@@ -9,17 +9,20 @@ use crate::{Interval, Level, MonteCarloFit, replicate_interval};
 pub struct Multiplier {
     /// c/(n·error) with its interval.
     pub interval: Interval,
-    /// Whether n times the multiplier exceeds the largest rendered sample count, so that it rests on error = c/n alone.
+    /// Whether n times the multiplier exceeds the largest rendered sample count, so that it rests on error =
+    /// c/n alone.
     pub extrapolated: bool,
-    /// The error is not above zero, so the multiplier has no upper limit and the value is a lower one: c/(n·upper end of the error).
+    /// The error is not above zero, so the multiplier has no upper limit and the value is a lower one:
+    /// c/(n·upper end of the error).
     pub at_least: bool,
 }
 
 /// c/(n·error) from Monte Carlo's constant and a method's squared errors at `spp` samples, one per replicate.
 ///
-/// The interval is that of the logarithm, by the delta method: squared relative standard errors of c and of the mean error add up.
-/// The two come from the same inputs and mostly move together, so this errs on the wide side. Student's t with the smaller number
-/// of degrees of freedom, that of the replicates. `None` without errors, or if no positive limit exists.
+/// The interval is that of the logarithm, by the delta method: squared relative standard errors of c and of
+/// the mean error add up. The two come from the same inputs and mostly move together, so this errs on the
+/// wide side. Student's t with the smaller number of degrees of freedom, that of the replicates. `None`
+/// without errors, or if no positive limit exists.
 #[must_use]
 pub fn equal_error_multiplier(
     fit: &MonteCarloFit,

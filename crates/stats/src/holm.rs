@@ -1,5 +1,6 @@
-/// p-values adjusted for the whole family by Holm's step-down rule (Holm 1979), in the order given: rejecting where the adjusted
-/// value is at most α keeps the chance of any false rejection at α, whatever the dependence.
+/// p-values adjusted for the whole family by Holm's step-down rule (Holm 1979), in the order given: rejecting
+/// where the adjusted value is at most α keeps the chance of any false rejection at α, whatever the
+/// dependence.
 #[must_use]
 pub fn holm_adjusted(p: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..p.len()).collect();

@@ -26,8 +26,8 @@ impl Interval {
         Self { value, standard_error: None, low: None, high: None, level, n: 1 }
     }
 
-    /// value ± critical value · standard error, with Student's t for `degrees` degrees of freedom or the normal quantile
-    /// if `None`.
+    /// value ± critical value · standard error, with Student's t for `degrees` degrees of freedom or the
+    /// normal quantile if `None`.
     #[must_use]
     pub fn symmetric(value: f64, standard_error: f64, level: Level, degrees: Option<u64>, n: u32) -> Self {
         let critical = degrees.map_or_else(|| normal_quantile(level), |d| t_quantile(level, d));
@@ -61,12 +61,12 @@ impl Interval {
         self.low.is_some_and(|low| low > x) || self.high.is_some_and(|high| high < x)
     }
 
-    /// For an error that is not above what the reference can show (`reference_se` is the standard error that the reference
-    /// contributes) or not positive: the upper limit to print instead, as "< limit". `None` if the value stands for itself,
-    /// or if nothing positive limits it.
+    /// For an error that is not above what the reference can show (`reference_se` is the standard error that
+    /// the reference contributes) or not positive: the upper limit to print instead, as "< limit". `None` if
+    /// the value stands for itself, or if nothing positive limits it.
     ///
-    /// The limit is the upper end of the interval; without one, max(value, 0) plus the critical value times `reference_se`;
-    /// in both cases at least `reference_se`.
+    /// The limit is the upper end of the interval; without one, max(value, 0) plus the critical value times
+    /// `reference_se`; in both cases at least `reference_se`.
     #[must_use]
     pub fn below(&self, reference_se: f64) -> Option<f64> {
         if self.value > 0.0 && self.value >= reference_se {
@@ -93,9 +93,9 @@ pub(crate) fn mean_and_variance(values: &[f64]) -> Option<(f64, f64)> {
 
 /// Mean over replicates with its t-interval; `None` if there are no values.
 ///
-/// `common_se` is a standard error that all replicates share, such as the reference's contribution: no average removes it, so it
-/// is added in quadrature to that over replicates. The critical value stays that of n−1 degrees of freedom, which errs
-/// on the wide side. One replicate gives a number without an interval.
+/// `common_se` is a standard error that all replicates share, such as the reference's contribution: no
+/// average removes it, so it is added in quadrature to that over replicates. The critical value stays that of
+/// n−1 degrees of freedom, which errs on the wide side. One replicate gives a number without an interval.
 #[must_use]
 pub fn replicate_interval(values: &[f64], common_se: f64, level: Level) -> Option<Interval> {
     let (mean, variance) = mean_and_variance(values)?;

@@ -13,9 +13,9 @@ impl Levels {
         Self::default()
     }
 
-    /// Adds a level: samples per pixel, the error of each replicate (the same replicate at the same index in all levels, `None` or a
-    /// value that is not finite where it is missing) and the standard error that the reference contributes. A level without any
-    /// value, or whose `spp` is not positive, is ignored.
+    /// Adds a level: samples per pixel, the error of each replicate (the same replicate at the same index in
+    /// all levels, `None` or a value that is not finite where it is missing) and the standard error that the
+    /// reference contributes. A level without any value, or whose `spp` is not positive, is ignored.
     pub fn push(&mut self, spp: f64, values: &[Option<f64>], reference_se: f64) {
         let values: Vec<Option<f64>> = values.iter().map(|v| v.filter(|v| v.is_finite())).collect();
         if spp > 0.0 && spp.is_finite() && values.iter().any(Option::is_some) {
@@ -77,8 +77,8 @@ impl Levels {
         out
     }
 
-    /// Spread of the values over replicates relative to the level's `size`, pooled over levels: variance and its degrees of
-    /// freedom. `None` if no level has two replicates.
+    /// Spread of the values over replicates relative to the level's `size`, pooled over levels: variance and
+    /// its degrees of freedom. `None` if no level has two replicates.
     pub(crate) fn pooled_relative_variance(&self, size: impl Fn(usize) -> f64) -> Option<(f64, u64)> {
         let (mut sum, mut degrees) = (0.0, 0);
         for level in 0..self.len() {

@@ -11,17 +11,18 @@ pub struct MonteCarloFit {
     pub c: Interval,
     /// n·error at each level.
     pub per_level: Vec<f64>,
-    /// Largest deviation of a level from the fit in standard errors, where these are known: values well above 4 say that the
-    /// frames do not behave as independent samples, or that the reference is too short.
+    /// Largest deviation of a level from the fit in standard errors, where these are known: values well above
+    /// 4 say that the frames do not behave as independent samples, or that the reference is too short.
     pub worst_deviation: Option<f64>,
 }
 
 /// Fits c over all levels of a squared error; `None` without levels or if the fit is not positive.
 ///
-/// Every level estimates c by n times its mean error. Levels are averaged with weights 1/variance, where the variance is that of the
-/// mean over the level's replicates, from a relative spread pooled over all levels (so that no level is favoured because its few
-/// replicates happen to agree), plus the reference's contribution, which n magnifies. The interval is Student's t with the pooled
-/// degrees of freedom; without two replicates at any level there is none.
+/// Every level estimates c by n times its mean error. Levels are averaged with weights 1/variance, where the
+/// variance is that of the mean over the level's replicates, from a relative spread pooled over all levels
+/// (so that no level is favoured because its few replicates happen to agree), plus the reference's
+/// contribution, which n magnifies. The interval is Student's t with the pooled degrees of freedom; without
+/// two replicates at any level there is none.
 #[must_use]
 pub fn monte_carlo_constant(levels: &Levels, level: Level) -> Option<MonteCarloFit> {
     let size = |l: usize| mean(&levels.present(l));

@@ -31,7 +31,8 @@ pub struct Observed<'a> {
 pub struct Truth<'a> {
     /// r per channel and pixel.
     pub mean: &'a [f32],
-    /// Variance v_r of that mean; absent if the truth is exact (or nothing is known, which then counts as exact).
+    /// Variance v_r of that mean; absent if the truth is exact (or nothing is known, which then counts as
+    /// exact).
     pub variance: Option<&'a [f32]>,
 }
 
@@ -121,7 +122,8 @@ pub(crate) trait Tally: Default + Clone {
     fn add(&mut self, other: &Self);
 }
 
-/// Adds what `visit` counts in each pixel to the tally of all pixels (index 0) and to that of its group (1 + group).
+/// Adds what `visit` counts in each pixel to the tally of all pixels (index 0) and to that of its group (1 +
+/// group).
 pub(crate) fn tally<T: Tally>(
     groups: Option<Groups<'_>>,
     pixels: usize,

@@ -16,8 +16,8 @@ pub struct Effect {
     pub p: f64,
 }
 
-/// The ratio if `ratio` asks for one and all paired values are positive, else the difference; see [`paired_ratio`] and
-/// [`paired_difference`]. `None` if no replicate has both.
+/// The ratio if `ratio` asks for one and all paired values are positive, else the difference; see
+/// [`paired_ratio`] and [`paired_difference`]. `None` if no replicate has both.
 #[must_use]
 pub fn paired_effect(
     a: &[Option<f64>],
@@ -30,11 +30,13 @@ pub fn paired_effect(
     as_ratio.or_else(|| paired_difference(a, b, common_se, level))
 }
 
-/// Geometric mean over replicates of a/b with its interval: a t-interval of the mean log ratio, exponentiated.
+/// Geometric mean over replicates of a/b with its interval: a t-interval of the mean log ratio,
+/// exponentiated.
 ///
-/// `common_se` are the standard errors that all replicates of a and of b share (the reference's contribution); relative to the
-/// means they are added in quadrature, as if independent of each other: two methods that err alike share them, so
-/// this errs on the wide side. `None` if no replicate has both or a value is not positive.
+/// `common_se` are the standard errors that all replicates of a and of b share (the reference's
+/// contribution); relative to the means they are added in quadrature, as if independent of each other: two
+/// methods that err alike share them, so this errs on the wide side. `None` if no replicate has both or a
+/// value is not positive.
 #[must_use]
 pub fn paired_ratio(
     a: &[Option<f64>],
@@ -53,7 +55,8 @@ pub fn paired_ratio(
     effect(&logs, common, level).map(|e| Effect { interval: e.interval.exp(), is_ratio: true, ..e })
 }
 
-/// Mean over replicates of a − b with its t-interval, `common_se` in quadrature; `None` if no replicate has both.
+/// Mean over replicates of a − b with its t-interval, `common_se` in quadrature; `None` if no replicate has
+/// both.
 #[must_use]
 pub fn paired_difference(
     a: &[Option<f64>],

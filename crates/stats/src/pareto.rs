@@ -1,5 +1,5 @@
-/// Indices of the points `(time, error)` that no other point beats in both, ordered by time. Of equal points the first stays;
-/// points that are not finite are never on the front.
+/// Indices of the points `(time, error)` that no other point beats in both, ordered by time. Of equal points
+/// the first stays; points that are not finite are never on the front.
 #[must_use]
 pub fn pareto_front(points: &[(f64, f64)]) -> Vec<usize> {
     let mut order: Vec<usize> =

@@ -7,7 +7,8 @@ use crate::{Interval, Level, Levels, t_quantile};
 /// A fit of error(n) = b + c/n with b, c ≥ 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Plateau {
-    /// b with its interval; value and ends are cut at 0, so the interval excludes 0 exactly if its lower end is positive.
+    /// b with its interval; value and ends are cut at 0, so the interval excludes 0 exactly if its lower end
+    /// is positive.
     pub b: Interval,
     /// c.
     pub c: f64,
@@ -15,11 +16,12 @@ pub struct Plateau {
 
 /// Fits a squared error by weighted least squares over at least three levels; `None` with fewer.
 ///
-/// The variance of a level is the squared fit times a relative spread over replicates pooled over all levels, over the level's
-/// replicates, plus the squared standard error from the reference; the weights are its inverse, iterated with the fit. Where the
-/// unconstrained fit has b or c below 0, that one is 0 and the other fitted alone. The interval of b is that of the unconstrained
-/// fit: the spread over replicates carried through the fit, Student's t with the pooled degrees of freedom, and the reference's
-/// standard error at the top level in quadrature, because what the reference adds to the bias is the same at all levels.
+/// The variance of a level is the squared fit times a relative spread over replicates pooled over all levels,
+/// over the level's replicates, plus the squared standard error from the reference; the weights are its
+/// inverse, iterated with the fit. Where the unconstrained fit has b or c below 0, that one is 0 and the
+/// other fitted alone. The interval of b is that of the unconstrained fit: the spread over replicates carried
+/// through the fit, Student's t with the pooled degrees of freedom, and the reference's standard error at the
+/// top level in quadrature, because what the reference adds to the bias is the same at all levels.
 #[must_use]
 pub fn plateau(levels: &Levels, level: Level) -> Option<Plateau> {
     if levels.len() < 3 {
@@ -42,7 +44,8 @@ pub fn plateau(levels: &Levels, level: Level) -> Option<Plateau> {
     let mut fitted: Vec<f64> = y.iter().map(|v| v.max(floor)).collect();
     let mut fit = Line::default();
     for _ in 0..8 {
-        // Without any spread over replicates only the proportion to the reference's part matters: 5 % is typical of a frame.
+        // Without any spread over replicates only the proportion to the reference's part matters: 5 % is
+        // typical of a frame.
         let relative = levels.pooled_relative_variance(|l| fitted[l]).map_or(0.0025, |(v, _)| v);
         let variance = |l: usize| relative * fitted[l].powi(2) / counts[l] + levels.reference_se(l).powi(2);
         let weights: Vec<f64> = (0..levels.len()).map(|l| 1.0 / variance(l).max(floor * floor)).collect();

@@ -22,8 +22,8 @@ pub fn rate_standard_error(rate: f64, n: u64) -> f64 {
     (rate * (1.0 - rate)).max(0.0).sqrt() / (n.max(1) as f64).sqrt()
 }
 
-/// Rate of hits in planar data whose channels of one pixel count as one cluster; pixels count as independent of each other, so
-/// this suits inputs and not denoised images. `None` for fewer than 2 pixels.
+/// Rate of hits in planar data whose channels of one pixel count as one cluster; pixels count as independent
+/// of each other, so this suits inputs and not denoised images. `None` for fewer than 2 pixels.
 #[must_use]
 pub fn clustered_rate(hits: &[bool], pixels: usize) -> Option<Rate> {
     if pixels < 2 || hits.is_empty() {
@@ -37,11 +37,12 @@ pub fn clustered_rate(hits: &[bool], pixels: usize) -> Option<Rate> {
     Some(Rate { rate, standard_error: (variance / pixels as f64).sqrt(), clusters: pixels })
 }
 
-/// Mean of per-replicate rates with its t-interval, cut to [0, 1]; `None` without replicates, no interval for one.
+/// Mean of per-replicate rates with its t-interval, cut to [0, 1]; `None` without replicates, no interval for
+/// one.
 ///
-/// `trials` is the number of pixels behind all replicates together. Where every replicate shows the same rate of 0 or 1 their spread
-/// says nothing; the interval then ends at the exact limit of that many independent trials, 1 − (α/2)^(1/trials) from
-/// the rate (Clopper, Pearson 1934).
+/// `trials` is the number of pixels behind all replicates together. Where every replicate shows the same rate
+/// of 0 or 1 their spread says nothing; the interval then ends at the exact limit of that many independent
+/// trials, 1 − (α/2)^(1/trials) from the rate (Clopper, Pearson 1934).
 #[must_use]
 pub fn proportion_interval(rates: &[f64], trials: u64, level: Level) -> Option<Interval> {
     let mut interval = replicate_interval(rates, 0.0, level)?;

@@ -7,7 +7,8 @@ use crate::{Interval, Level, Levels, replicate_interval};
 /// A slope, fitted per replicate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Slope {
-    /// Mean over replicates with its interval; −1 for the squared error of plain Monte Carlo, −½ for its root.
+    /// Mean over replicates with its interval; −1 for the squared error of plain Monte Carlo, −½ for its
+    /// root.
     pub interval: Interval,
     /// Least-squares slope of each replicate that has every level.
     pub per_replicate: Vec<f64>,
@@ -17,9 +18,9 @@ pub struct Slope {
 
 /// Least-squares slope of ln error against ln spp per replicate, and the interval over replicates at `level`.
 ///
-/// Only replicates with every level take part, so that all are fitted over the same range; a level where one of them has an error
-/// ≤ 0 (below the reference's noise) is left out for all, because dropping single values would favour large errors. `None` with
-/// fewer than two levels or without such a replicate.
+/// Only replicates with every level take part, so that all are fitted over the same range; a level where one
+/// of them has an error ≤ 0 (below the reference's noise) is left out for all, because dropping single values
+/// would favour large errors. `None` with fewer than two levels or without such a replicate.
 #[must_use]
 pub fn slope(levels: &Levels, level: Level) -> Option<Slope> {
     slope_between(levels, level, 0.0, f64::INFINITY)

@@ -23,7 +23,8 @@ pub fn normal_quantile(level: Level) -> f64 {
     refine(start, tail, |x| normal.sf(x), |x| statrs::distribution::Continuous::pdf(&normal, x))
 }
 
-/// Probability that Student's t with `degrees` ≥ 1 degrees of freedom exceeds `statistic` in absolute value; 0 for an infinite one.
+/// Probability that Student's t with `degrees` ≥ 1 degrees of freedom exceeds `statistic` in absolute value;
+/// 0 for an infinite one.
 #[must_use]
 pub fn t_two_sided_p(statistic: f64, degrees: u64) -> f64 {
     if statistic.is_infinite() {

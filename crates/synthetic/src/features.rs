@@ -70,9 +70,9 @@ struct Draw {
 }
 
 impl Draw {
-    /// Mean, variance and halves of `spp` normal samples of the given mean and standard deviation, drawn from the exact joint
-    /// law of these four numbers instead of sample by sample: the half means are normal, and the sum of squares within the
-    /// halves is chi-square with n−2 degrees of freedom, independent of them.
+    /// Mean, variance and halves of `spp` normal samples of the given mean and standard deviation, drawn from
+    /// the exact joint law of these four numbers instead of sample by sample: the half means are normal, and
+    /// the sum of squares within the halves is chi-square with n−2 degrees of freedom, independent of them.
     fn normal<const C: usize>(
         &self,
         purpose: u64,

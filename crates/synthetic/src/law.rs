@@ -19,7 +19,8 @@ pub enum SampleLaw {
         /// Standard deviation of the logarithm, in (0, 4].
         sigma: f64,
     },
-    /// Rare bright event: μ·(1−b) always, and b·μ/q more with probability q: variance (bμ)²·(1−q)/q. Needs μ ≥ 0.
+    /// Rare bright event: μ·(1−b) always, and b·μ/q more with probability q: variance (bμ)²·(1−q)/q. Needs μ
+    /// ≥ 0.
     Bernoulli {
         /// Probability q of the event, in (0, 1].
         q: f64,

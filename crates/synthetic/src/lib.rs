@@ -1,11 +1,11 @@
 //! Synthetic frames with exactly known truth and a chosen sample law.
 //!
 //! A [`SyntheticScene`] is a mean image (flats, ramps, edges, texture) and the law that its samples follow.
-//! [`SyntheticScene::render`] draws real samples and keeps the statistics a renderer would keep, so that every
-//! statistical claim can be tested in seconds against an exact truth ([`SyntheticScene::truth`]).
+//! [`SyntheticScene::render`] draws real samples and keeps the statistics a renderer would keep, so that
+//! every statistical claim can be tested in seconds against an exact truth ([`SyntheticScene::truth`]).
 //!
-//! Random numbers come from a counter: the same seed gives the same bits for any number of threads, and a frame of n
-//! samples is made of the first n samples of a larger one.
+//! Random numbers come from a counter: the same seed gives the same bits for any number of threads, and a
+//! frame of n samples is made of the first n samples of a larger one.
 //!
 //! ```
 //! use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};

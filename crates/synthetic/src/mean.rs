@@ -161,7 +161,8 @@ fn texture(x: usize, y: usize, width: usize, period: usize) -> Spot {
             0.5 + 0.5 * wave(x) * wave(y)
         }
         _ => {
-            // Bricks of two periods by one, every other course shifted by half a brick, joints one pixel wide.
+            // Bricks of two periods by one, every other course shifted by half a brick, joints one pixel
+            // wide.
             let course = y / period;
             let along = x + (course % 2) * period;
             if y.is_multiple_of(period) || along.is_multiple_of(2 * period) { 1.0 } else { 0.25 }

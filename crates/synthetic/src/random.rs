@@ -78,7 +78,8 @@ impl Stream {
 mod tests {
     use super::Stream;
 
-    /// Mean and variance of `n` draws lie within 5 standard errors; `kurtosis` is the fourth central moment over variance².
+    /// Mean and variance of `n` draws lie within 5 standard errors; `kurtosis` is the fourth central moment
+    /// over variance².
     fn check(name: &str, n: usize, mean: f64, variance: f64, kurtosis: f64, mut draw: impl FnMut() -> f64) {
         let draws: Vec<f64> = (0..n).map(|_| draw()).collect();
         let m = draws.iter().sum::<f64>() / n as f64;

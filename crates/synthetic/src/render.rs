@@ -21,9 +21,9 @@ pub(crate) struct Sampled<const C: usize> {
 const COLOR: u64 = 0;
 
 impl SyntheticScene {
-    /// Draws `spp` independent samples per pixel (at least one) and keeps their statistics: mean, variance of the mean, halves by
-    /// parity of the sample index; variance and halves only from 2 samples on. The guide images come from other random
-    /// numbers, independent of the colour's.
+    /// Draws `spp` independent samples per pixel (at least one) and keeps their statistics: mean, variance of
+    /// the mean, halves by parity of the sample index; variance and halves only from 2 samples on. The guide
+    /// images come from other random numbers, independent of the colour's.
     ///
     /// The bits depend on scene, `spp` and `seed` only, not on the number of threads.
     #[must_use]

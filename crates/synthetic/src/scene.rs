@@ -21,7 +21,8 @@ pub enum Guides {
 
 /// A scene that needs no renderer: its mean image and the law of its samples are known exactly.
 ///
-/// In a study file (every parameter but `image` and `law` has a default; one that the chosen law does not have is an error):
+/// In a study file (every parameter but `image` and `law` has a default; one that the chosen law does not
+/// have is an error):
 ///
 /// ```toml
 /// image = "edges"      # constant, flats, ramps, edges, texture, mixed
@@ -50,7 +51,8 @@ pub struct SyntheticScene {
 impl SyntheticScene {
     /// Default columns and rows.
     pub const SIZE: (usize, usize) = (160, 120);
-    /// Default standard deviation of one sample of albedo and normal components, and of depth relative to depth.
+    /// Default standard deviation of one sample of albedo and normal components, and of depth relative to
+    /// depth.
     pub const FEATURE_SD: f64 = 0.02;
     /// Default standard deviation of one flash sample, relative to its mean.
     pub const FLASH_SD: f64 = 0.1;

@@ -68,7 +68,8 @@ fn every_pixel_has_its_own_mean() {
     assert_near("its square", &squares, 1.0);
 }
 
-/// Share of pixel-channels whose t-interval holds the truth, with its standard error over pixels (independent here).
+/// Share of pixel-channels whose t-interval holds the truth, with its standard error over pixels (independent
+/// here).
 fn coverage(scene: &SyntheticScene, spp: u32, level: Level) -> (f64, f64) {
     let frame = scene.render(spp, 11);
     let t = t_quantile(level, u64::from(spp) - 1);

@@ -47,8 +47,8 @@ pub(crate) fn all_color(frame: &mut Frame, value: f32) {
     frame.color.mean.data_mut().fill(value);
 }
 
-/// Scattered pixels of the colour are `factor` times brighter, as one extreme sample of n leaves them: mean, and the standard
-/// error equal to the excess.
+/// Scattered pixels of the colour are `factor` times brighter, as one extreme sample of n leaves them: mean,
+/// and the standard error equal to the excess.
 pub(crate) fn fireflies(frame: &mut Frame, factor: f32) {
     let n = frame.color.mean.data().len();
     for k in 0..n.div_ceil(60) {
@@ -99,7 +99,8 @@ pub(crate) fn constant_guides(frame: &mut Frame) {
     }
 }
 
-/// Normal and depth become multiples of the albedo, so that no regression on the features has a unique answer.
+/// Normal and depth become multiples of the albedo, so that no regression on the features has a unique
+/// answer.
 pub(crate) fn collinear_features(frame: &mut Frame) {
     let Some(albedo) = frame.features.get(&FeatureId::Albedo).cloned() else { return };
     let scaled = |channels: usize, factor: f32| {

@@ -1,7 +1,7 @@
 //! Test-only: synthetic frames, derived tolerances, hard cases and the conformance check.
 //!
-//! A method's own tests, and those of the whole workspace, run every method through [`hard_cases`] with [`check_method`]:
-//! each case must end in finite output or a typed error.
+//! A method's own tests, and those of the whole workspace, run every method through [`hard_cases`] with
+//! [`check_method`]: each case must end in finite output or a typed error.
 //!
 //! ```
 //! use noisefloor_denoiser::MonteCarlo;

@@ -1,7 +1,7 @@
 use std::fmt;
 
-/// How far a measured number may lie from its expectation: a multiple of its standard error, derived from the number of trials
-/// and never chosen to make a test pass.
+/// How far a measured number may lie from its expectation: a multiple of its standard error, derived from the
+/// number of trials and never chosen to make a test pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
     /// Expected value.
@@ -16,8 +16,8 @@ impl Tolerance {
     /// Standard errors allowed unless said otherwise: a two-sided false alarm in 1.7 million.
     pub const Z: f64 = 5.0;
 
-    /// A measured rate over `trials` independent trials with probability `rate`. Channels of one pixel are one trial if they share
-    /// their random numbers.
+    /// A measured rate over `trials` independent trials with probability `rate`. Channels of one pixel are
+    /// one trial if they share their random numbers.
     #[must_use]
     pub fn rate(rate: f64, trials: u64) -> Self {
         Self {
@@ -34,14 +34,16 @@ impl Tolerance {
         Self { expected, standard_error, z: Self::Z }
     }
 
-    /// The unbiased variance of `trials` independent normal draws of this variance: relative standard error √(2/(trials−1)).
+    /// The unbiased variance of `trials` independent normal draws of this variance: relative standard error
+    /// √(2/(trials−1)).
     #[must_use]
     pub fn normal_variance(variance: f64, trials: u64) -> Self {
         let standard_error = variance * (2.0 / (trials.max(2) - 1) as f64).sqrt();
         Self { expected: variance, standard_error, z: Self::Z }
     }
 
-    /// The mean of these independent measurements (one per replicate), with the standard error from their own spread.
+    /// The mean of these independent measurements (one per replicate), with the standard error from their own
+    /// spread.
     #[must_use]
     pub fn of_mean(expected: f64, measurements: &[f64]) -> Self {
         let n = measurements.len() as f64;

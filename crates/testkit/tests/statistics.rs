@@ -93,11 +93,13 @@ fn channels_that_share_their_noise_count_as_one() {
         .collect();
     let within = clustered_rate(&hits, pixels as usize).unwrap().standard_error;
     let ratio = within * within / (0.95 * 0.05 / f64::from(pixels));
-    // A binomial variance from its own rate: the rate's 5 tolerances move p(1−p) by 5·√(0.0475/6144)·0.9/0.0475 = 26 %.
+    // A binomial variance from its own rate: the rate's 5 tolerances move p(1−p) by
+    // 5·√(0.0475/6144)·0.9/0.0475 = 26 %.
     assert!((ratio - 1.0).abs() < 0.27, "{ratio}");
 }
 
-/// Adds a constant far outside any interval, which the guard then cuts to the interval's end: the worst that it lets through.
+/// Adds a constant far outside any interval, which the guard then cuts to the interval's end: the worst that
+/// it lets through.
 struct Shift(f32);
 
 impl Denoiser for Shift {
