@@ -1,6 +1,7 @@
 //! What is counted against the truth beside the metrics: coverage of intervals, violations of bounds, enclosures.
 
 mod blocks;
+mod ratio;
 
 use noisefloor_denoiser::Claim;
 use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling, Variance};
@@ -11,6 +12,7 @@ use noisefloor_stats::{
 use crate::record::{BoundCount, CoverageCount, EnclosureCheck};
 use crate::source::PixelClasses;
 use blocks::{Blocks, within_se};
+pub(crate) use ratio::ratio_within_se;
 
 /// The class that stands for all pixels.
 pub(crate) const ALL: &str = "all";

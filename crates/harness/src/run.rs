@@ -23,7 +23,7 @@ use crate::study::Study;
 use crate::summary::{MethodSummary, Summary};
 
 /// Resampled images of the block bootstrap.
-pub(crate) const BOOTSTRAP_IMAGES: usize = 400;
+pub(crate) const BOOTSTRAP_IMAGES: usize = 200;
 
 /// Random seed of a cell's bootstrap: the same for all rows of a frame, and whenever it is computed again.
 pub(crate) fn bootstrap_seed(record: &Record) -> u64 {

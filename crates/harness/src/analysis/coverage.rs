@@ -1,6 +1,6 @@
 use crate::analysis::index::Index;
 use crate::analysis::number::rate;
-use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio};
+use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio, times};
 use crate::context::SceneContext;
 use crate::record::{CoverageCount, Record};
 use crate::summary::CoverageSummary;
@@ -12,7 +12,7 @@ pub(super) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
         return None;
     }
     Some(if ratio > 0.0 {
-        format!("the reference has only {ratio:.0} times the samples; {LONG_ENOUGH:.0} are assumed")
+        format!("the reference has only {} times the samples; {LONG_ENOUGH:.0} are assumed", times(ratio))
     } else {
         "how many samples the reference has is unknown".into()
     })

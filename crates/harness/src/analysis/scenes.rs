@@ -15,6 +15,11 @@ pub(super) fn reference_ratio(scene: &SceneContext, spp: u32) -> f64 {
     if scene.reference.exact { f64::INFINITY } else { scene.reference.spp as f64 / f64::from(spp.max(1)) }
 }
 
+/// A ratio for a sentence: one decimal where it has one.
+pub(super) fn times(ratio: f64) -> f64 {
+    (ratio * 10.0).round() / 10.0
+}
+
 pub(super) fn scenes(index: &Index<'_>, records: &[Record]) -> Vec<SceneSummary> {
     index.scenes().iter().map(|scene| summary(scene, records)).collect()
 }

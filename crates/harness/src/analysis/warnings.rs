@@ -2,7 +2,7 @@ use noisefloor_frame::Sampling;
 
 use crate::analysis::cells::monte_carlo;
 use crate::analysis::index::Index;
-use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio};
+use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio, times};
 use crate::context::SceneContext;
 use crate::summary::Summary;
 
@@ -61,8 +61,9 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
         ));
     } else if ratio < LONG_ENOUGH {
         out.push(format!(
-            "{id}: the reference has only {ratio:.3} times the samples of the {top} spp level; coverage and bounds are marked \
-             where it has less than {LONG_ENOUGH:.0} times"
+            "{id}: the reference has only {} times the samples of the {top} spp level; coverage and bounds are marked \
+             where it has less than {LONG_ENOUGH:.0} times",
+            times(ratio)
         ));
     }
     if scene.sampling == Sampling::LowDiscrepancy {

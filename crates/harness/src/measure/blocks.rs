@@ -21,6 +21,15 @@ impl Blocks {
         Self { of_pixel: (0..width * height).map(block).collect(), count: columns * rows }
     }
 
+    pub(super) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// Block of a row-major pixel.
+    pub(super) fn of(&self, pixel: usize) -> usize {
+        self.of_pixel[pixel]
+    }
+
     /// One tally per block; `count` gives that of everything, then those of the groups. `None` if the shapes disagree, which
     /// the same count over classes has already told.
     pub(super) fn tallies<T>(

@@ -4,14 +4,14 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_denoiser::Output;
-use noisefloor_frame::Frame;
+use noisefloor_frame::{Frame, Reference};
 use noisefloor_metrics::{Measurer, block_bootstrap};
 
 use crate::cache::{Cache, Key};
 use crate::context::SceneContext;
 use crate::error::HarnessError;
 use crate::machine;
-use crate::measure::Measure;
+use crate::measure::{Measure, ratio_within_se};
 use crate::observer::Stage;
 use crate::plan::{Plan, Row, wants_diagnostics};
 use crate::record::{NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
@@ -70,7 +70,14 @@ impl Runner<'_> {
             };
             let measure =
                 Measure::new(&frame, &truth.reference, &truth.classes, &hygiene.invalid, scene.single());
-            let cell = Cell { runner: self, measurer: &measurer, measure, spec, frame: &frame };
+            let cell = Cell {
+                runner: self,
+                measurer: &measurer,
+                measure,
+                reference: &truth.reference,
+                spec,
+                frame: &frame,
+            };
             for (row, key) in rows {
                 if self.request.observer.cancelled() {
                     return Err(HarnessError::Cancelled);
@@ -89,6 +96,7 @@ struct Cell<'a> {
     runner: &'a Runner<'a>,
     measurer: &'a Measurer<'a>,
     measure: Measure<'a>,
+    reference: &'a Reference,
     spec: &'a FrameSpec,
     frame: &'a Frame,
 }
@@ -159,6 +167,10 @@ impl Cell<'_> {
             record.metrics_within_se =
                 block_bootstrap(self.measurer, &image, BOOTSTRAP_IMAGES, bootstrap_seed(record))
                     .map_err(metric)?;
+        }
+        if scene.single() && row.method.id != crate::BASELINE {
+            record.ratio_within_se =
+                ratio_within_se(&image, &self.frame.color.mean, self.reference).map_err(metric)?;
         }
         record.figures = figures.into_iter().filter(|(_, value)| value.is_finite()).collect();
         let shape = |source| HarnessError::Shape { scene: scene.id.clone(), source };

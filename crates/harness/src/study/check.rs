@@ -23,6 +23,13 @@ impl Lines<'_> {
         Place { file: self.file.clone(), line }
     }
 
+    /// The line where a table begins, in either notation.
+    fn of_table(&self, name: &str) -> Option<usize> {
+        let header = format!("[{name}]");
+        let found = self.text.lines().position(|line| line.trim() == header).map(|index| index + 1);
+        found.or_else(|| self.of_key(name))
+    }
+
     /// The first line that sets this key.
     fn of_key(&self, key: &str) -> Option<usize> {
         let sets = |line: &str| {
@@ -95,7 +102,7 @@ fn check_reference(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError>
     let reference = &study.reference;
     let wrong = |field: &str, value: u32, allowed: String| {
         Err(HarnessError::Field {
-            place: lines.place(lines.text.lines().position(|l| l.trim() == "[reference]").map(|l| l + 1)),
+            place: lines.place(lines.of_table("reference")),
             field: format!("reference.{field}"),
             value: value.to_string(),
             allowed,

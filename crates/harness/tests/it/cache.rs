@@ -1,0 +1,135 @@
+//! Rendered frames are shared, checked and made again when damaged.
+
+use std::path::PathBuf;
+
+use crate::common::{Place, Watch, study, timeless};
+use noisefloor_harness::Study;
+
+const SPP: usize = 2;
+const REFERENCE: usize = 16;
+const PIXELS: usize = 16 * 12;
+
+fn rendered() -> Study {
+    study(
+        r#"
+        name = "rendered"
+        spp = [2]
+        replicates = 2
+        width = 16
+        height = 12
+        depth = 3
+        timing = { warmup = 0, runs = 1 }
+        [reference]
+        spp = 16
+        [[scene]]
+        id = "cornell"
+        [[method]]
+        id = "mc"
+        [[method]]
+        id = "blur"
+        "#,
+    )
+}
+
+fn files(place: &Place, extension: &str) -> Vec<PathBuf> {
+    let mut out = Vec::new();
+    for folder in std::fs::read_dir(place.cache()).unwrap() {
+        for file in std::fs::read_dir(folder.unwrap().path()).unwrap() {
+            let path = file.unwrap().path();
+            if path.extension().is_some_and(|e| e == extension) {
+                out.push(path);
+            }
+        }
+    }
+    out.sort();
+    out
+}
+
+#[test]
+fn frames_and_references_are_rendered_once_for_all_studies() {
+    let place = Place::new();
+    let first = Watch::default();
+    place.run(&rendered(), &first).unwrap();
+    assert_eq!(first.samples(), PIXELS * (2 * SPP + REFERENCE));
+    assert_eq!(first.planned.lock().unwrap().samples, first.samples() as u64);
+    assert_eq!(files(&place, "exr").len(), 2 + 8);
+
+    // Another name, and one more replicate: two frames and the reference are there.
+    let mut other = rendered();
+    other.name = "other".into();
+    other.replicates = noisefloor_harness::Replicates::uniform(3);
+    let second = Watch::default();
+    place.run_to(&place.root.path().join("other"), &other, &second).unwrap();
+    assert_eq!(second.samples(), PIXELS * SPP);
+
+    // Another study seed gives other frames and the same reference.
+    let mut reseeded = rendered();
+    reseeded.seed = 1;
+    let third = Watch::default();
+    place.run_to(&place.root.path().join("reseeded"), &reseeded, &third).unwrap();
+    assert_eq!(third.samples(), PIXELS * 2 * SPP);
+}
+
+#[test]
+fn a_damaged_cache_file_is_noticed_and_made_again() {
+    let place = Place::new();
+    place.run(&rendered(), &Watch::default()).unwrap();
+    let before = timeless(&place.out());
+    let good: Vec<Vec<u8>> = files(&place, "exr").iter().map(|path| std::fs::read(path).unwrap()).collect();
+    // One flipped bit, a file cut short, an empty one, and a lost checksum: each in turn, in every file.
+    type Harm = fn(&PathBuf);
+    let harms: [Harm; 4] = [
+        |path| {
+            let mut bytes = std::fs::read(path).unwrap();
+            let middle = bytes.len() / 2;
+            bytes[middle] ^= 1;
+            std::fs::write(path, bytes).unwrap();
+        },
+        |path| {
+            let bytes = std::fs::read(path).unwrap();
+            std::fs::write(path, &bytes[..bytes.len() / 3]).unwrap();
+        },
+        |path| std::fs::write(path, b"").unwrap(),
+        |path| std::fs::remove_file(path.with_extension("b3")).unwrap(),
+    ];
+    for harm in harms {
+        files(&place, "exr").iter().for_each(harm);
+        std::fs::remove_dir_all(place.out()).unwrap();
+        let watch = Watch::default();
+        place.run(&rendered(), &watch).unwrap();
+        assert_eq!(watch.warnings().len(), 10, "{:?}", watch.warnings());
+        assert_eq!(watch.samples(), PIXELS * (2 * SPP + REFERENCE));
+        assert_eq!(timeless(&place.out()), before);
+    }
+    assert_eq!(good.len(), files(&place, "exr").len());
+}
+
+#[test]
+fn the_size_can_be_chosen_when_running() {
+    let place = Place::new();
+    let summary = noisefloor_harness::run(&noisefloor_harness::StudyRun {
+        study: &rendered(),
+        registry: &crate::common::registry(),
+        out_dir: &place.out(),
+        cache_dir: &place.cache(),
+        size: Some((8, 6)),
+        command: String::new(),
+        simd: String::new(),
+        observer: &Watch::default(),
+    })
+    .unwrap();
+    assert_eq!((summary.scenes[0].width, summary.scenes[0].height), (8, 6));
+    let kept = noisefloor_io::read_color(place.out().join(&summary.scenes[0].reference_image)).unwrap();
+    assert_eq!((kept.width(), kept.height()), (8, 6));
+}
+
+#[test]
+fn independent_frames_of_a_scene_differ_and_repeat() {
+    let place = Place::new();
+    place.run(&rendered(), &Watch::default()).unwrap();
+    let records = timeless(&place.out());
+    assert_ne!(records[0].metrics, records[2].metrics, "replicates are independent");
+    let elsewhere = Place::new();
+    elsewhere.run(&rendered(), &Watch::default()).unwrap();
+    assert_eq!(timeless(&elsewhere.out()), records);
+}

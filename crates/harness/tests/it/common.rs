@@ -1,0 +1,260 @@
+//! Fake methods, tiny studies, and comparison of records without their times.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use noisefloor_denoiser::{
+    Citation, Claim, DenoiseError, Denoiser, Entry, Input, MC_ENTRY, MethodCard, Need, Output, ParamDoc,
+    Registry, build_with,
+};
+use noisefloor_frame::Image;
+use noisefloor_harness::record::{Outcome, Record, Seconds};
+use noisefloor_harness::summary::Summary;
+use noisefloor_harness::{HarnessError, Observer, Study, StudyRun, Workload};
+use noisefloor_stats::Level;
+use serde::{Deserialize, Serialize};
+
+const CITATION: Citation = Citation { key: "none", text: "made up for a test" };
+
+/// Mean over a square window, with a false claim to stay in the interval if asked.
+struct Blur(BlurParams);
+
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BlurParams {
+    radius: usize,
+    boast: bool,
+}
+
+impl Default for BlurParams {
+    fn default() -> Self {
+        Self { radius: 1, boast: false }
+    }
+}
+
+const BLUR_PARAMS: &[ParamDoc] = &[
+    ParamDoc { name: "radius", range: "0 to 20 pixels", about: "half the window" },
+    ParamDoc { name: "boast", range: "true or false", about: "claims an interval that it leaves" },
+];
+
+impl Denoiser for Blur {
+    fn card(&self) -> MethodCard {
+        let mut card = MethodCard::new("blur", "Box blur", CITATION);
+        if self.0.boast {
+            let level = Level::TWO_SIDED_95;
+            let claim = Claim { name: "boast", terms: vec![(1e-3, level)], level, proven: false };
+            card.claims.enclosure = vec![claim.clone()];
+            card.claims.error_bound = vec![claim];
+        }
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let mean = &input.target.color.mean;
+        let (r, w, h) = (self.0.radius as isize, mean.width() as isize, mean.height() as isize);
+        let image = Image::from_fn(mean.width(), mean.height(), 3, |c, x, y| {
+            let (mut sum, mut count) = (0.0, 0.0);
+            for j in (y as isize - r).max(0)..=(y as isize + r).min(h - 1) {
+                for i in (x as isize - r).max(0)..=(x as isize + r).min(w - 1) {
+                    sum += mean.get(c, i as usize, j as usize);
+                    count += 1.0;
+                }
+            }
+            sum / count
+        });
+        let mut output = Output::from_image(image);
+        output.figures.push(("radius".into(), self.0.radius as f64));
+        if input.diagnostics != noisefloor_denoiser::Diagnostics::Off {
+            output
+                .diagnostics
+                .push(("window size".into(), Image::filled(mean.width(), mean.height(), 1, 1.0)));
+        }
+        Ok(output)
+    }
+}
+
+/// Does what its id says.
+struct Trouble(&'static str);
+
+impl Denoiser for Trouble {
+    fn card(&self) -> MethodCard {
+        let mut card = MethodCard::new(self.0, self.0, CITATION);
+        if self.0 == "needy" {
+            card.needs = vec![Need::Flash, Need::ColorHalves];
+        }
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        let mean = &input.target.color.mean;
+        match self.0 {
+            "panics" => panic!("no reason"),
+            "shrinks" => Ok(Output::from_image(Image::new(1, 1, 3))),
+            "nan" => {
+                let mut image = mean.clone();
+                image.set(0, 0, 0, f32::NAN);
+                Ok(Output::from_image(image))
+            }
+            _ => {
+                Err(DenoiseError::Undefined { method: self.0.into(), what: "weight", pixels: 7, x: 1, y: 2 })
+            }
+        }
+    }
+}
+
+#[derive(Default, Serialize, Deserialize)]
+struct NoParams {}
+
+macro_rules! trouble {
+    ($id:literal) => {
+        Entry {
+            id: $id,
+            summary: "a test",
+            params: &[],
+            defaults: || serde_json::json!({}),
+            build: |set| build_with($id, &[], set, |_: NoParams| Ok(Trouble($id))),
+        }
+    };
+}
+
+pub fn registry() -> Registry {
+    let blur = Entry {
+        id: "blur",
+        summary: "box blur",
+        params: BLUR_PARAMS,
+        defaults: || serde_json::to_value(BlurParams::default()).unwrap(),
+        build: |set| {
+            build_with(
+                "blur",
+                BLUR_PARAMS,
+                set,
+                |p: BlurParams| if p.radius <= 20 { Ok(Blur(p)) } else { Err("radius") },
+            )
+        },
+    };
+    let troubles =
+        [trouble!("needy"), trouble!("fails"), trouble!("panics"), trouble!("shrinks"), trouble!("nan")];
+    Registry::new(&[MC_ENTRY, blur], &troubles)
+}
+
+/// Counts, and stops after a number of cells if asked.
+#[derive(Default)]
+pub struct Watch {
+    pub cells: AtomicUsize,
+    pub samples: AtomicUsize,
+    pub planned: Mutex<Workload>,
+    pub warnings: Mutex<Vec<String>>,
+    pub stop_after: Option<usize>,
+}
+
+impl Watch {
+    pub fn stopping_after(cells: usize) -> Self {
+        Self { stop_after: Some(cells), ..Self::default() }
+    }
+
+    pub fn cells(&self) -> usize {
+        self.cells.load(Ordering::Relaxed)
+    }
+
+    pub fn samples(&self) -> usize {
+        self.samples.load(Ordering::Relaxed)
+    }
+
+    pub fn warnings(&self) -> Vec<String> {
+        self.warnings.lock().unwrap().clone()
+    }
+}
+
+impl Observer for Watch {
+    fn planned(&self, work: &Workload) {
+        *self.planned.lock().unwrap() = *work;
+    }
+    fn rendered(&self, samples: u64) {
+        self.samples.fetch_add(samples as usize, Ordering::Relaxed);
+    }
+    fn cell(&self, _: &Record, _: &Outcome) {
+        self.cells.fetch_add(1, Ordering::Relaxed);
+    }
+    fn warning(&self, text: &str) {
+        self.warnings.lock().unwrap().push(text.into());
+    }
+    fn cancelled(&self) -> bool {
+        self.stop_after.is_some_and(|stop| self.cells() >= stop)
+    }
+}
+
+/// Folders for one test.
+pub struct Place {
+    pub root: tempfile::TempDir,
+}
+
+impl Place {
+    pub fn new() -> Self {
+        Self { root: tempfile::tempdir().unwrap() }
+    }
+
+    pub fn out(&self) -> PathBuf {
+        self.root.path().join("out")
+    }
+
+    pub fn cache(&self) -> PathBuf {
+        self.root.path().join("cache")
+    }
+
+    pub fn run(&self, study: &Study, watch: &Watch) -> Result<Summary, HarnessError> {
+        self.run_to(&self.out(), study, watch)
+    }
+
+    pub fn run_to(&self, out: &Path, study: &Study, watch: &Watch) -> Result<Summary, HarnessError> {
+        noisefloor_harness::run(&StudyRun {
+            study,
+            registry: &registry(),
+            out_dir: out,
+            cache_dir: &self.cache(),
+            size: None,
+            command: "test".into(),
+            simd: "none".into(),
+            observer: watch,
+        })
+    }
+}
+
+pub fn study(toml: &str) -> Study {
+    Study::from_toml(toml, Path::new("test.toml")).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Two levels, two replicates, two rows: eight cells.
+pub fn small() -> Study {
+    study(SMALL)
+}
+
+pub const SMALL: &str = r#"
+name = "small"
+spp = [4, 16]
+replicates = 2
+timing = { warmup = 0, runs = 1 }
+[[scene]]
+id = "steps"
+synthetic = { image = "edges", law = "gaussian", sd = 0.5, width = 24, height = 16 }
+[[method]]
+id = "mc"
+[[method]]
+id = "blur"
+"#;
+
+pub fn records(out: &Path) -> Vec<Record> {
+    let text = std::fs::read_to_string(out.join("results.jsonl")).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
+}
+
+/// Records as they must agree between runs: without times and memory.
+pub fn timeless(out: &Path) -> Vec<Record> {
+    let mut all = records(out);
+    for record in &mut all {
+        record.seconds = Seconds::default();
+        record.peak_memory_bytes = None;
+    }
+    all
+}

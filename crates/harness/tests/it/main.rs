@@ -1,0 +1,8 @@
+//! The harness from outside, with fake methods and tiny studies. One binary, so that it is linked once.
+
+mod cache;
+mod common;
+mod import;
+mod outcomes;
+mod resume;
+mod statistics;
