@@ -54,7 +54,7 @@ pub enum HarnessError {
         /// Label of the row.
         label: String,
         /// What is wrong, with the nearest names.
-        source: BuildError,
+        source: Box<BuildError>,
     },
     /// A folder of frames cannot be used as a scene.
     #[error("{}: {reason}", path.display())]

@@ -69,7 +69,7 @@ fn rows(study: &Study, registry: &Registry) -> Result<Vec<Row>, HarnessError> {
         let method = registry.build(&row.id, &row.set).map_err(|source| HarnessError::Method {
             place: Place { file: format!("study `{}`", study.name), line: row.line },
             label: row.label.clone(),
-            source,
+            source: Box::new(source),
         })?;
         let mut slug = slug(&row.label);
         while !slugs.insert(slug.clone()) {
