@@ -2,6 +2,7 @@
 
 use noisefloor_frame::{Flash, Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
+use rayon::prelude::*;
 
 use crate::flash::{self, percentile};
 use crate::mirror::mirror;
@@ -62,17 +63,17 @@ impl Guide {
         };
         let bright = percentile((0..image.pixels()).map(magnitudes), params.luminance_clip_percentile);
         let floor = (params.guide_floor * bright).powi(2);
-        let mut sigma_r = (f64::INFINITY, 0.0f64);
+        let mut range = (f64::INFINITY, 0.0f64);
         let inv_two_sigma_r2 = patch_mean(variance, patch)
             .into_iter()
             .map(|mean| {
                 let sigma2 = (params.kappa * params.kappa * mean).max(floor);
-                sigma_r = (sigma_r.0.min(sigma2.sqrt()), sigma_r.1.max(sigma2.sqrt()));
+                range = (range.0.min(sigma2), range.1.max(sigma2));
                 // A width of zero gives the largest finite value: only equal patches count then.
                 (0.5 / sigma2).min(f64::from(f32::MAX)) as f32
             })
             .collect();
-        Self { image, inv_two_sigma_r2, intensity, sigma_r }
+        Self { image, inv_two_sigma_r2, intensity, sigma_r: (range.0.sqrt(), range.1.sqrt()) }
     }
 }
 
@@ -80,25 +81,27 @@ impl Guide {
 fn patch_mean(image: &Image, patch: &PatchWeights) -> Vec<f64> {
     let (width, height) = (image.width(), image.height());
     let [r, g, b] = [0, 1, 2].map(|c| image.plane(c));
-    // `max` also turns a NaN of an input that was not sanitised into 0.
-    let value = |p: usize| (f64::from(r[p]) + f64::from(g[p]) + f64::from(b[p])).max(0.0) / 3.0;
     let radius = patch.radius() as isize;
-    let taps: Vec<(isize, f64)> = (-radius..=radius).map(|i| (i, patch.tap(i.unsigned_abs()))).collect();
-    let mut across = Vec::with_capacity(width * height);
-    for y in 0..height {
-        let row: Vec<f64> = (0..width).map(|x| value(y * width + x)).collect();
-        across.extend(
-            (0..width as isize)
-                .map(|x| -> f64 { taps.iter().map(|&(i, tap)| tap * row[mirror(x + i, width)]).sum() }),
-        );
-    }
-    let mut down = Vec::with_capacity(width * height);
-    for y in 0..height as isize {
-        let rows: Vec<(&[f64], f64)> =
-            taps.iter().map(|&(j, tap)| (&across[mirror(y + j, height) * width..][..width], tap)).collect();
-        down.extend((0..width).map(|x| -> f64 { rows.iter().map(|&(row, tap)| tap * row[x]).sum() }));
-    }
-    down
+    let taps: Vec<f64> = (-radius..=radius).map(|i| patch.tap(i.unsigned_abs())).collect();
+    let across: Vec<Vec<f64>> = (0..height)
+        .into_par_iter()
+        .map(|y| {
+            // `max` also turns a NaN of an input that was not sanitised into 0.
+            let value = |p: usize| (f64::from(r[p]) + f64::from(g[p]) + f64::from(b[p])).max(0.0) / 3.0;
+            let padded: Vec<f64> =
+                (-radius..width as isize + radius).map(|x| value(y * width + mirror(x, width))).collect();
+            padded.windows(taps.len()).map(|part| part.iter().zip(&taps).map(|(v, t)| v * t).sum()).collect()
+        })
+        .collect();
+    let down = (0..height as isize).into_par_iter().flat_map_iter(|y| {
+        let mut sum = vec![0.0; width];
+        for (j, tap) in (-radius..=radius).zip(&taps) {
+            let row = &across[mirror(y + j, height)];
+            sum.iter_mut().zip(row).for_each(|(sum, v)| *sum += tap * v);
+        }
+        sum
+    });
+    down.collect()
 }
 
 #[cfg(test)]

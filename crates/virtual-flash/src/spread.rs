@@ -53,14 +53,16 @@ impl FirstStep<'_> {
     /// Runs over every pixel's homogeneous set, summing weights and weighted values of two images.
     fn gather(&self, finish: impl Fn(usize, [Sums; 3]) -> [f64; 3] + Sync, images: [&Image; 2]) -> Image {
         let (width, height) = (self.frame.width(), self.frame.height());
+        let padded = self.guide.map(|guide| Padded::new(&guide.image, self.patch));
+        let padded = padded.as_ref();
         let rows: Vec<Vec<[f64; 3]>> = (0..height)
             .into_par_iter()
-            .map(|y| (0..width).map(|x| finish(y * width + x, self.sums(x, y, images))).collect())
+            .map(|y| (0..width).map(|x| finish(y * width + x, self.sums(padded, x, y, images))).collect())
             .collect();
         Image::from_fn(width, height, 3, |c, x, y| rows[y][x][c] as f32)
     }
 
-    fn sums(&self, x: usize, y: usize, images: [&Image; 2]) -> [Sums; 3] {
+    fn sums(&self, padded: Option<&Padded>, x: usize, y: usize, images: [&Image; 2]) -> [Sums; 3] {
         let (width, height) = (self.frame.width(), self.frame.height());
         let r = self.step.window_radius;
         let p = y * width + x;
@@ -72,7 +74,7 @@ impl FirstStep<'_> {
                 if members == [false; 3] {
                     continue;
                 }
-                let weight = if p == q { 1.0 } else { self.weight((x, y), (qx, qy)) };
+                let weight = if p == q { 1.0 } else { self.weight(padded, (x, y), (qx, qy)) };
                 for c in (0..3).filter(|&c| members[c]) {
                     sums[c].add(weight, images.map(|image| f64::from(image.plane(c)[q])));
                 }
@@ -82,28 +84,50 @@ impl FirstStep<'_> {
     }
 
     /// w(p, q) of Eq. 1.
-    fn weight(&self, p: (usize, usize), q: (usize, usize)) -> f64 {
+    fn weight(&self, padded: Option<&Padded>, p: (usize, usize), q: (usize, usize)) -> f64 {
         let sigma = f64::from(self.step.spatial_sigma);
         let offset = (p.0.abs_diff(q.0).pow(2) + p.1.abs_diff(q.1).pow(2)) as f64;
         let spatial = (-offset / (2.0 * sigma * sigma)).exp(); // sigma > 0 by validation
-        let Some(guide) = self.guide else { return spatial };
-        let width = self.frame.width();
-        let distance = self.patch_distance(&guide.image, p, q);
-        spatial * (-distance * f64::from(guide.inv_two_sigma_r2[p.1 * width + p.0])).exp()
+        let (Some(guide), Some(padded)) = (self.guide, padded) else { return spatial };
+        let distance = padded.patch_distance(self.patch, p, q);
+        spatial * (-distance * f64::from(guide.inv_two_sigma_r2[p.1 * self.frame.width() + p.0])).exp()
+    }
+}
+
+/// The guide with a mirrored border as wide as the patch reaches.
+struct Padded {
+    stride: usize,
+    planes: [Vec<f32>; 3],
+}
+
+impl Padded {
+    fn new(image: &Image, patch: &PatchWeights) -> Self {
+        let f = patch.radius() as isize;
+        let (w, h) = (image.width(), image.height());
+        let columns: Vec<usize> = (-f..w as isize + f).map(|x| mirror(x, w)).collect();
+        let plane = |c: usize| {
+            let rows = (-f..h as isize + f).map(|y| &image.plane(c)[mirror(y, h) * w..][..w]);
+            rows.flat_map(|row| columns.iter().map(move |&x| row[x])).collect()
+        };
+        Self { stride: columns.len(), planes: [0, 1, 2].map(plane) }
     }
 
     /// Σ_j G(j)·⅓Σ_c (F_c(p+j) − F_c(q+j))².
-    fn patch_distance(&self, image: &Image, p: (usize, usize), q: (usize, usize)) -> f64 {
-        let f = self.patch.radius() as isize;
-        let at = |(x, y): (usize, usize), i: isize, j: isize| {
-            mirror(y as isize + j, image.height()) * image.width() + mirror(x as isize + i, image.width())
-        };
+    fn patch_distance(&self, patch: &PatchWeights, p: (usize, usize), q: (usize, usize)) -> f64 {
+        let f = patch.radius();
+        let side = 2 * f + 1;
         let mut distance = 0.0;
-        for (j, i) in (-f..=f).flat_map(|j| (-f..=f).map(move |i| (j, i))) {
-            let (a, b) = (at(p, i, j), at(q, i, j));
-            let square: f64 =
-                image.planes().map(|plane| (f64::from(plane[a]) - f64::from(plane[b])).powi(2)).sum();
-            distance += self.patch.tap(i.unsigned_abs()) * self.patch.tap(j.unsigned_abs()) * square;
+        for j in 0..side {
+            let mut across = 0.0;
+            for plane in &self.planes {
+                // Pixel (x, y) lies at (x + f, y + f), so its patch starts at (x, y).
+                let row = |(x, y): (usize, usize)| &plane[(y + j) * self.stride + x..][..side];
+                for (i, (a, b)) in row(p).iter().zip(row(q)).enumerate() {
+                    let difference = f64::from(*a) - f64::from(*b);
+                    across += patch.tap(i.abs_diff(f)) * difference * difference;
+                }
+            }
+            distance += patch.tap(j.abs_diff(f)) * across;
         }
         distance / 3.0
     }
