@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 
 use exr::block::UncompressedBlock;
+use exr::block::chunk::{Chunk, CompressedBlock, TileCoordinates};
 use exr::block::lines::LineRef;
 use exr::block::reader::{ChunksReader as _, Reader};
 use exr::math::Vec2;
@@ -26,6 +27,9 @@ use crate::attributes::{Attributes, decode_text};
 
 /// Most pixels that a file may claim.
 pub(crate) const MAX_PIXELS: usize = 1 << 28;
+
+/// Most bytes of pixels, before compression, that a file may claim.
+const MAX_BYTES: u128 = 1 << 33;
 
 /// A channel as the header describes it.
 #[derive(Debug, Clone)]
@@ -108,25 +112,26 @@ impl Opened {
         count_buffers: usize,
     ) -> Result<Buffers, IoError> {
         let Self { file, width, height, channels, reader, ended, .. } = self;
-        let largest_level =
-            |_: &MetaData, tile: exr::block::chunk::TileCoordinates, _| tile.is_largest_resolution_level();
+        let largest_level = |_: &MetaData, tile: TileCoordinates, _| tile.is_largest_resolution_level();
         // This reads the table of block positions, so that a file that lacks it ends here, before allocation.
-        let chunks = guard(&file, &ended, || reader.filter_chunks(false, largest_level))?;
+        let mut chunks = guard(&file, &ended, || reader.filter_chunks(false, largest_level))?;
+        let meta = chunks.meta_data().clone();
+        let header = &meta.headers[0]; // `sound_header` saw one
         let mut out = Buffers { no_count: vec![None; count_buffers], ..Buffers::default() };
         for &planes in float_planes {
-            out.floats.push(zeros(&file, width * height, planes)?);
+            out.floats.push(zeros(&file, width * height * planes)?);
         }
         for _ in 0..count_buffers {
-            out.counts.push(zeros(&file, width * height, 1)?);
+            out.counts.push(zeros(&file, width * height)?);
         }
-        let header_channels = chunks.headers()[0].channels.clone();
         let mut covered = Coverage::default();
         // One block after the other on this thread: the decoder's own thread pool would end the process if a
         // damaged block made it panic.
-        let mut blocks = chunks.sequential_decompressor(false);
-        while let Some(block) = guard(&file, &ended, || blocks.next().transpose())? {
+        while let Some(chunk) = guard(&file, &ended, || chunks.next().transpose())? {
+            check_claims(&file, header, &chunk)?;
+            let block = guard(&file, &ended, || UncompressedBlock::decompress_chunk(chunk, &meta, true))?;
             covered.add(&file, &block, width, height)?;
-            for line in block.lines(&header_channels) {
+            for line in block.lines(&header.channels) {
                 let index = line.location.channel;
                 out.store(&line, channels[index].kind, targets[index], width, height);
             }
@@ -156,21 +161,21 @@ impl Buffers {
             }
             Target::Count { buffer } => {
                 let row = &mut self.counts[buffer][range];
-                let mut wrong = None;
+                let (mut pixel, mut wrong) = (start, None);
                 let mut count = |value: f64| {
-                    crate::attributes::whole(value).unwrap_or_else(|| {
-                        wrong.get_or_insert(value);
-                        0
-                    })
+                    let whole = crate::attributes::whole(value);
+                    if whole.is_none() {
+                        wrong.get_or_insert((pixel, value));
+                    }
+                    pixel += 1;
+                    whole.unwrap_or(0)
                 };
                 match kind {
                     SampleType::U32 => convert(line.value, row, u32::from_ne_bytes),
                     SampleType::F32 => convert(line.value, row, |b| count(f32::from_ne_bytes(b).into())),
                     SampleType::F16 => convert(line.value, row, |b| count(f16::from_ne_bytes(b).to_f64())),
                 }
-                if let Some(value) = wrong {
-                    self.no_count[buffer].get_or_insert((start, value));
-                }
+                self.no_count[buffer] = self.no_count[buffer].or(wrong);
             }
         }
     }
@@ -264,9 +269,12 @@ fn check_sizes(file: &Path, header: &Header, file_bytes: u64) -> Result<(), IoEr
     // How far a compressed byte can unfold. Deflate stays below 1032 and run lengths below that; the lossy
     // DWA stacks both.
     let unfold = match header.compression {
-        Compression::DWAA(_) | Compression::DWAB(_) => 1 << 17,
+        Compression::DWAA(_) | Compression::DWAB(_) => 1 << 16,
         _ => 2048,
     };
+    if raw > MAX_BYTES {
+        return Err(too_large(format!("at most {MAX_BYTES} bytes are read")));
+    }
     if raw > u128::from(file_bytes) * unfold {
         return Err(too_large(format!("a file of {file_bytes} bytes cannot hold that")));
     }
@@ -280,13 +288,39 @@ fn check_sizes(file: &Path, header: &Header, file_bytes: u64) -> Result<(), IoEr
     Ok(())
 }
 
-fn zeros<T: Clone + Default>(file: &Path, pixels: usize, planes: usize) -> Result<Vec<T>, IoError> {
-    let mut out = Vec::new();
+/// DWA blocks begin with the sizes of their sections, which the decoder allocates unseen: 1 TB would end the process.
+fn check_claims(file: &Path, header: &Header, chunk: &Chunk) -> Result<(), IoError> {
+    if !matches!(header.compression, Compression::DWAA(_) | Compression::DWAB(_)) {
+        return Ok(());
+    }
+    let bytes = match &chunk.compressed_block {
+        CompressedBlock::ScanLine(block) => &block.compressed_pixels_le,
+        CompressedBlock::Tile(block) => &block.compressed_pixels_le,
+        _ => return Ok(()), // deep data, which the decoder refuses
+    };
+    let pixels = guard(file, &Cell::new(false), || {
+        header.get_absolute_block_pixel_coordinates(header.get_block_data_indices(&chunk.compressed_block)?)
+    })?;
+    let raw = pixels.size.area() * header.channels.bytes_per_pixel;
+    if bytes.len() == raw {
+        return Ok(()); // stored as it is, because it would not shrink
+    }
+    // A version, nine sizes, and the kind of entropy coding, of 8 bytes each. Blocks of 8×8 values count in full at
+    // the edges, hence the factor.
+    let limit = 64 * (raw as u64 + 64);
+    let mut sizes = bytes.as_chunks::<8>().0.iter().skip(1).take(9).map(|size| u64::from_le_bytes(*size));
+    match sizes.find(|&size| size > limit) {
+        Some(size) => Err(IoError::malformed(file, format!("a compressed block claims {size} bytes"))),
+        None => Ok(()),
+    }
+}
+
+fn zeros<T: Clone + Default>(file: &Path, values: usize) -> Result<Vec<T>, IoError> {
     // Sizes are plausible at this point, but the machine may still not have the memory.
-    out.try_reserve_exact(pixels * planes)
-        .map_err(|_| IoError::read(file, io::Error::from(io::ErrorKind::OutOfMemory)))?;
-    out.resize(pixels * planes, T::default());
-    Ok(out)
+    let probe = Vec::<T>::new().try_reserve_exact(values);
+    probe.map_err(|_| IoError::read(file, io::Error::from(io::ErrorKind::OutOfMemory)))?;
+    // Zeroed by the system page by page as they are used, so that pages that no block fills cost nothing.
+    Ok(vec![T::default(); values])
 }
 
 /// Calls the decoder and turns its errors into ours.
@@ -301,6 +335,10 @@ fn guard<T>(
     use exr::error::Error;
     match catch_unwind(AssertUnwindSafe(call)) {
         Ok(Ok(value)) => Ok(value),
+        Ok(Err(Error::Io(cause))) if cause.kind() == io::ErrorKind::InvalidInput => {
+            // What the system says to a position beyond all files.
+            Err(IoError::malformed(file, "a block position is impossible"))
+        }
         Ok(Err(Error::Io(cause))) => Err(IoError::read(file, cause)),
         Ok(Err(Error::NotSupported(what))) => Err(IoError::unsupported(file, what)),
         Ok(Err(error)) if ended.get() => {
