@@ -186,10 +186,10 @@ pub(crate) fn facts(file: &Path, attributes: &Attributes) -> Result<Facts, IoErr
         None => left.remove("samplesPerPixel").map(|v| parse_spp(file, "samplesPerPixel", &v)).transpose()?,
     };
     let spp_half_a = match left.remove("sppHalfA") {
-        Some(value) => Some(
-            whole(parse_spp(file, "sppHalfA", &value)?)
-                .ok_or_else(|| bad(file, "sppHalfA", &value, "a whole number of samples"))?,
-        ),
+        Some(value) => {
+            let count = value.trim().parse().ok().and_then(whole);
+            Some(count.ok_or_else(|| bad(file, "sppHalfA", &value, "a whole number of samples"))?)
+        }
         None => None,
     };
     let sampling = match left.remove("sampling") {

@@ -37,9 +37,11 @@ impl fmt::Display for VarianceScaleWarning {
             LostFactor::DivideBySamples => "it may be the variance of one sample, not of the mean",
             LostFactor::MultiplyBySamples => "it may have been divided by the sample count twice",
         };
+        let times =
+            if ratio >= 1.0 { format!("{ratio:.2} times") } else { format!("1/{:.2} of", 1.0 / ratio) };
         write!(
             f,
-            "the stored variance is {ratio:.3} times what the half buffers show, at {n} samples per pixel: {guess}"
+            "the stored variance is {times} what the half buffers show, at {n} samples per pixel: {guess}"
         )
     }
 }

@@ -51,6 +51,7 @@ fn every_kind_of_sample_count_comes_back() {
         Samples::uniform(u32::MAX),
         Samples::uniform(9),
         Samples::uniform(9).with_half_a(Counts::Uniform(2)),
+        Samples::uniform(9).with_half_a(Counts::Uniform(0)),
         Samples::uniform(9).with_half_a(map(|n| n)),
         Samples::per_pixel((1..=6).collect()),
         Samples::per_pixel(vec![4; 6]),
