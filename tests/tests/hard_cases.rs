@@ -308,7 +308,7 @@ fn means_near_a_million_with_a_variance_near_a_thousandth() {
     let mut f = base.clone();
     f.color = offset(&base.color);
     for subject in subjects() {
-        // The image stays within the noise of its level: nothing is lost to cancellation.
+        // Nothing is lost to cancellation.
         if let Ok(output) = subject.denoiser.denoise(&Input::new(&f))
             && !subject.denoiser.card().id.contains("as-written")
         {
@@ -426,7 +426,7 @@ fn a_power_of_two_of_exposure_scales_the_output_exactly() {
         let k = 2f32.powi(exponent);
         let bright = scaled(&f, k);
         let k = f64::from(k);
-        // Settings with a unit are scaled along: (id, at this exposure, at the other).
+        // Settings with a unit are scaled along, where they stay in range: (id, at this exposure, at the other).
         let mut pairs = vec![
             ("mc", json!({}), json!({})),
             ("geometric-corrected", json!({}), json!({ "luminance_floor": 0.01 * k })),
@@ -436,7 +436,6 @@ fn a_power_of_two_of_exposure_scales_the_output_exactly() {
                 json!({ "spread": "std-of-mean", "pixels_per_error": 20.0 / k }),
             ),
         ];
-        // A pixel of s0 per radiance out of range at the other exposure is not a pair.
         pairs.retain(|(_, _, other)| other["pixels_per_error"].as_f64().is_none_or(|s0| s0 <= 1e4));
         pairs.extend(settings("virtual-flash").into_iter().map(|s| ("virtual-flash", s.clone(), s)));
         for (id, here, there) in pairs {
