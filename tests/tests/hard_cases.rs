@@ -117,8 +117,7 @@ fn assert_enclosed(subject: &Subject, f: &Frame, image: &Image, case: &str) {
     }
 }
 
-/// Runs everything on a sanitised frame. Only two errors are allowed: missing inputs that are missing indeed, and the literal
-/// geometric variant's undefined pixels.
+/// Runs everything on a sanitised frame. Allowed errors: missing inputs, and undefined pixels of `as-written`.
 fn survive(case: &str, mut f: Frame) {
     f.sanitize();
     for subject in subjects() {
