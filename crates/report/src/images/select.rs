@@ -1,0 +1,246 @@
+//! Which images fit into the page, and the viewer's table of contents.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use noisefloor_frame::Image;
+use noisefloor_harness::summary::SceneSummary;
+use serde::Serialize;
+
+use super::encode::{Encoded, encode};
+use crate::index::Index;
+
+/// Reads an image of the study; the error is a sentence for the page.
+pub(crate) type Loader<'a> = dyn Fn(&Path) -> Result<Image, String> + 'a;
+
+/// A rectangle of an image: x, y, width, height.
+pub(crate) type Crop = [usize; 4];
+
+/// What the viewer can show.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct Gallery {
+    pub scenes: Vec<GalleryScene>,
+    pub images: Vec<Encoded>,
+    /// Levels that the page leaves out to stay small, as sentences.
+    #[serde(skip)]
+    pub omitted: Vec<String>,
+    /// Files that could not be read, as sentences.
+    #[serde(skip)]
+    pub unreadable: Vec<String>,
+}
+
+/// The images of one scene, as positions in [`Gallery::images`].
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct GalleryScene {
+    pub id: String,
+    pub title: String,
+    /// The part of the frame that is shown, if not all.
+    pub crop: Option<Crop>,
+    pub reference: Option<usize>,
+    pub levels: Vec<GalleryLevel>,
+}
+
+/// The images of one scene at one level.
+#[derive(Debug, Default, Serialize)]
+pub(crate) struct GalleryLevel {
+    pub spp: u32,
+    /// Row label to image.
+    pub images: BTreeMap<String, usize>,
+    /// Row label to diagnostic name to image.
+    pub diagnostics: BTreeMap<String, BTreeMap<String, usize>>,
+    /// Row label to the primary metric as text.
+    pub values: BTreeMap<String, String>,
+}
+
+impl Gallery {
+    /// Size of all images as text.
+    pub(crate) fn bytes(&self) -> usize {
+        self.images.iter().map(|i| i.text.len()).sum()
+    }
+}
+
+/// Chooses and encodes images until the budget (bytes of text in the page) is used up.
+///
+/// First the references and the level that the page opens with, for every scene, cropped around the centre if
+/// even these are too large; then that level's diagnostics; then further levels, each as a whole or not at all.
+pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Gallery {
+    let study = &index.summary.study;
+    let wanted: Vec<u32> =
+        if study.viewer_spp.is_empty() { study.spp.clone() } else { study.viewer_spp.clone() };
+    let first =
+        index.default_spp().filter(|n| wanted.contains(n)).or_else(|| wanted.get(wanted.len() / 2).copied());
+    let mut builder = Builder { index, load, gallery: Gallery::default(), stored: BTreeMap::new() };
+    let share = budget / index.summary.scenes.len().max(1);
+    for scene in &index.summary.scenes {
+        builder.open(scene, first, share);
+    }
+    if let Some(spp) = first {
+        builder.each(|b, i, scene| b.add_diagnostics(i, scene, spp, budget));
+    }
+    for &spp in wanted.iter().filter(|n| Some(**n) != first) {
+        builder.each(|b, i, scene| b.add_level(i, scene, spp, budget));
+    }
+    for &spp in wanted.iter().filter(|n| Some(**n) != first) {
+        builder.each(|b, i, scene| b.add_diagnostics(i, scene, spp, budget));
+    }
+    let mut gallery = builder.gallery;
+    gallery.scenes.iter_mut().for_each(|s| s.levels.sort_by_key(|l| l.spp));
+    gallery
+}
+
+struct Builder<'a> {
+    index: &'a Index<'a>,
+    load: &'a Loader<'a>,
+    gallery: Gallery,
+    /// Images in the gallery by scene and path, so that shared files are carried once.
+    stored: BTreeMap<(usize, String), usize>,
+}
+
+impl<'a> Builder<'a> {
+    fn each(&mut self, mut f: impl FnMut(&mut Self, usize, &'a SceneSummary)) {
+        for (i, scene) in self.index.summary.scenes.iter().enumerate() {
+            f(self, i, scene);
+        }
+    }
+
+    /// Starts a scene with its reference and its first level, within `share` bytes.
+    fn open(&mut self, scene: &'a SceneSummary, spp: Option<u32>, share: usize) {
+        let position = self.gallery.scenes.len();
+        self.gallery.scenes.push(GalleryScene {
+            id: scene.id.clone(),
+            title: scene.title.clone(),
+            ..GalleryScene::default()
+        });
+        let mut paths: Vec<&str> = vec![&scene.reference_image];
+        paths.extend(spp.iter().flat_map(|&n| level_paths(scene, n)).map(|(_, path)| path));
+        let Some((first, _)) = self.read(&paths, None).into_iter().next() else { return };
+        let full = [0, 0, first.width, first.height];
+        let mut crop = full;
+        // Cropping changes the compression, so the size is found by shrinking until it fits.
+        loop {
+            let encoded = self.read(&paths, (crop != full).then_some(crop));
+            let bytes: usize = encoded.iter().map(|(e, _)| e.text.len()).sum();
+            if bytes <= share || crop[2].min(crop[3]) <= 16 {
+                self.gallery.scenes[position].crop = (crop != full).then_some(crop);
+                for (image, path) in encoded {
+                    self.store(position, path, image);
+                }
+                break;
+            }
+            // `bytes > share ≥ 0`, so the quotient is defined and below 1.
+            let shrink = (share as f64 / bytes as f64).sqrt().clamp(0.3, 0.97);
+            let side = |n: usize| ((n as f64 * shrink) as usize).max(16).min(n);
+            let (w, h) = (side(crop[2]), side(crop[3]));
+            crop = [(full[2] - w) / 2, (full[3] - h) / 2, w, h];
+        }
+        let reference = self.stored.get(&(position, scene.reference_image.clone())).copied();
+        self.gallery.scenes[position].reference = reference;
+        if let Some(spp) = spp {
+            self.enter_level(position, scene, spp);
+        }
+    }
+
+    /// Reads and encodes files; unreadable ones are noted once and left out.
+    fn read<'p>(&mut self, paths: &[&'p str], crop: Option<Crop>) -> Vec<(Encoded, &'p str)> {
+        let mut encoded = Vec::new();
+        for &path in paths.iter().filter(|p| !p.is_empty()) {
+            match (self.load)(Path::new(path)) {
+                Ok(image) => {
+                    let cut = match crop {
+                        Some([x, y, w, h]) if x + w <= image.width() && y + h <= image.height() => {
+                            image.crop(x, y, w, h)
+                        }
+                        _ => image,
+                    };
+                    encoded.push((encode(&cut), path));
+                }
+                Err(reason) => {
+                    let sentence = format!("{path}: {reason}");
+                    if !self.gallery.unreadable.contains(&sentence) {
+                        self.gallery.unreadable.push(sentence);
+                    }
+                }
+            }
+        }
+        encoded
+    }
+
+    fn store(&mut self, scene: usize, path: &str, image: Encoded) {
+        let position = self.gallery.images.len();
+        if let std::collections::btree_map::Entry::Vacant(entry) = self.stored.entry((scene, path.to_owned()))
+        {
+            entry.insert(position);
+            self.gallery.images.push(image);
+        }
+    }
+
+    /// Files not yet stored that fit into what is left of the budget, all or none.
+    fn fit(&mut self, position: usize, paths: &[&str], budget: usize) -> bool {
+        let missing: Vec<&str> = paths
+            .iter()
+            .copied()
+            .filter(|p| !self.stored.contains_key(&(position, (*p).to_owned())))
+            .collect();
+        let encoded = self.read(&missing, self.gallery.scenes[position].crop);
+        let bytes: usize = encoded.iter().map(|(e, _)| e.text.len()).sum();
+        let fits = self.gallery.bytes() + bytes <= budget;
+        if fits {
+            for (image, path) in encoded {
+                self.store(position, path, image);
+            }
+        }
+        fits
+    }
+
+    fn add_level(&mut self, position: usize, scene: &'a SceneSummary, spp: u32, budget: usize) {
+        let paths: Vec<&str> = level_paths(scene, spp).map(|(_, path)| path).collect();
+        if paths.is_empty() {
+            return;
+        }
+        if self.fit(position, &paths, budget) {
+            self.enter_level(position, scene, spp);
+        } else {
+            self.gallery.omitted.push(format!("{} at {spp} spp", scene.title));
+        }
+    }
+
+    fn add_diagnostics(&mut self, position: usize, scene: &'a SceneSummary, spp: u32, budget: usize) {
+        let Some(level) = self.gallery.scenes[position].levels.iter().position(|l| l.spp == spp) else {
+            return;
+        };
+        for (label, by_spp) in &scene.diagnostics {
+            for (name, path) in by_spp.get(&spp).into_iter().flatten() {
+                if !self.fit(position, &[path], budget) {
+                    self.gallery.omitted.push(format!("{}, {name} of {label} at {spp} spp", scene.title));
+                    continue;
+                }
+                if let Some(&image) = self.stored.get(&(position, path.clone())) {
+                    let level = &mut self.gallery.scenes[position].levels[level];
+                    level.diagnostics.entry(label.clone()).or_default().insert(name.clone(), image);
+                }
+            }
+        }
+    }
+
+    fn enter_level(&mut self, position: usize, scene: &'a SceneSummary, spp: u32) {
+        let mut level = GalleryLevel { spp, ..GalleryLevel::default() };
+        let metric = &self.index.summary.study.primary_metric;
+        for (label, path) in level_paths(scene, spp) {
+            if let Some(&image) = self.stored.get(&(position, path.to_owned())) {
+                level.images.insert(label.to_owned(), image);
+            }
+            let interval = self.index.cell(&scene.id, spp, label).and_then(|c| c.metrics.get(metric));
+            if let Some(interval) = interval {
+                level.values.insert(label.to_owned(), crate::format::interval(interval).value);
+            }
+        }
+        if !level.images.is_empty() {
+            self.gallery.scenes[position].levels.push(level);
+        }
+    }
+}
+
+/// Row labels and files of a level.
+fn level_paths(scene: &SceneSummary, spp: u32) -> impl Iterator<Item = (&str, &str)> {
+    scene.images.iter().filter_map(move |(label, by_spp)| Some((label.as_str(), by_spp.get(&spp)?.as_str())))
+}

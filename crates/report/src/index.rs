@@ -1,0 +1,96 @@
+//! Look-ups in a summary that plots, tables and sentences share.
+
+use std::collections::BTreeMap;
+
+use noisefloor_harness::summary::{CellSummary, Comparison, MetricInfo, SceneSummary, Summary};
+
+use crate::plot::style::Looks;
+
+/// A summary with its look-up tables.
+pub(crate) struct Index<'a> {
+    pub summary: &'a Summary,
+    pub looks: Looks,
+    cells: BTreeMap<(&'a str, u32, &'a str), &'a CellSummary>,
+    comparisons: BTreeMap<(&'a str, u32, &'a str), &'a Comparison>,
+}
+
+impl<'a> Index<'a> {
+    pub(crate) fn new(summary: &'a Summary) -> Self {
+        let cells = summary.cells.iter().map(|c| ((c.scene.as_str(), c.spp, c.label.as_str()), c)).collect();
+        let comparisons =
+            summary.comparisons.iter().map(|c| ((c.scene.as_str(), c.spp, c.metric.as_str()), c)).collect();
+        Self { summary, looks: Looks::of(&summary.methods), cells, comparisons }
+    }
+
+    pub(crate) fn cell(&self, scene: &str, spp: u32, label: &str) -> Option<&'a CellSummary> {
+        self.cells.get(&(scene, spp, label)).copied()
+    }
+
+    pub(crate) fn comparison(&self, scene: &str, spp: u32, metric: &str) -> Option<&'a Comparison> {
+        self.comparisons.get(&(scene, spp, metric)).copied()
+    }
+
+    /// Levels of a scene that have cells, ascending.
+    pub(crate) fn levels(&self, scene: &str) -> impl Iterator<Item = u32> + use<> {
+        let mut levels: Vec<u32> = self.cells.keys().filter(|k| k.0 == scene).map(|k| k.1).collect();
+        levels.sort_unstable();
+        levels.dedup();
+        levels.into_iter()
+    }
+
+    pub(crate) fn metric(&self, id: &str) -> Option<&'a MetricInfo> {
+        self.summary.study.metrics.iter().find(|m| m.id == id)
+    }
+
+    pub(crate) fn metric_name(&self, id: &str) -> String {
+        self.metric(id).map_or_else(|| id.to_owned(), |m| m.name.clone())
+    }
+
+    /// Name with unit, for axes.
+    pub(crate) fn metric_label(&self, id: &str) -> String {
+        match self.metric(id) {
+            Some(m) if !m.unit.is_empty() => format!("{} ({})", m.name, m.unit),
+            _ => self.metric_name(id),
+        }
+    }
+
+    /// Label of the row that is the unfiltered input.
+    pub(crate) fn baseline(&self) -> Option<&'a str> {
+        self.summary.methods.iter().find(|m| m.method == "mc").map(|m| m.label.as_str())
+    }
+
+    /// The level that a reader sees first: the middle one, the upper of two.
+    pub(crate) fn default_spp(&self) -> Option<u32> {
+        let spp = &self.summary.study.spp;
+        spp.get(spp.len() / 2).copied()
+    }
+
+    /// Rows that ran at a level, best first: the comparison's ranking, else by the value itself.
+    pub(crate) fn ranking(&self, scene: &str, spp: u32, metric: &str) -> Vec<&'a str> {
+        let lower = self.metric(metric).is_none_or(|m| m.lower_is_better);
+        let mut rows: Vec<(&'a str, f64)> = self
+            .summary
+            .methods
+            .iter()
+            .filter_map(|m| {
+                let value = self.cell(scene, spp, &m.label)?.metrics.get(metric)?.value;
+                Some((m.label.as_str(), if lower { value } else { -value }))
+            })
+            .collect();
+        // Values that are not numbers go last.
+        rows.sort_by(|a, b| a.1.is_nan().cmp(&b.1.is_nan()).then(a.1.total_cmp(&b.1)));
+        if let Some(comparison) = self.comparison(scene, spp, metric) {
+            let place = |label: &str| comparison.ranking.iter().position(|l| l == label);
+            rows.sort_by_key(|(label, _)| place(label).unwrap_or(usize::MAX));
+        }
+        rows.into_iter().map(|(label, _)| label).collect()
+    }
+
+    pub(crate) fn scene(&self, id: &str) -> Option<&'a SceneSummary> {
+        self.summary.scenes.iter().find(|s| s.id == id)
+    }
+
+    pub(crate) fn scene_title(&self, id: &str) -> String {
+        self.scene(id).map_or_else(|| id.to_owned(), |s| s.title.clone())
+    }
+}

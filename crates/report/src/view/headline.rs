@@ -1,0 +1,370 @@
+//! The first screen: what won, by how much, what held, what broke.
+
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
+
+use noisefloor_harness::summary::{Comparison, Interval, SceneSummary};
+use serde::Serialize;
+
+use crate::format;
+use crate::index::Index;
+
+/// A question with its answer in a sentence or a few.
+#[derive(Debug, Serialize)]
+pub(crate) struct Answer {
+    pub question: &'static str,
+    pub sentences: Vec<String>,
+    /// `good`, `bad` or `plain`.
+    pub tone: &'static str,
+}
+
+/// Best row per scene and level.
+#[derive(Debug, Serialize)]
+pub(crate) struct Board {
+    pub spp: Vec<u32>,
+    pub chosen: Option<u32>,
+    pub rows: Vec<BoardRow>,
+}
+
+/// A scene of the board.
+#[derive(Debug, Serialize)]
+pub(crate) struct BoardRow {
+    pub title: String,
+    /// One per level; nothing where no row ran.
+    pub cells: Vec<Option<BoardCell>>,
+}
+
+/// The best row of a scene at a level.
+#[derive(Debug, Serialize)]
+pub(crate) struct BoardCell {
+    pub label: String,
+    pub swatch: usize,
+    /// How many times below plain Monte Carlo's error.
+    pub factor: String,
+    /// Other rows that cannot be told from it.
+    pub tied: Vec<String>,
+    pub is_baseline: bool,
+}
+
+/// A scene's verdict and its pictures.
+#[derive(Debug, Serialize)]
+pub(crate) struct SceneCard {
+    pub id: String,
+    pub title: String,
+    pub sentences: Vec<String>,
+    pub spp: u32,
+    /// Rows whose images stand beside the reference.
+    pub shown: Vec<String>,
+    /// The same as JSON, for the page's script.
+    pub shown_json: String,
+}
+
+/// The four questions of the page's top.
+pub(crate) fn answers(index: &Index<'_>) -> Vec<Answer> {
+    let mut answers = Vec::new();
+    answers.extend(error(index));
+    answers.extend(cost(index));
+    answers.extend(claims(index));
+    answers.push(breaks(index));
+    answers
+}
+
+fn error(index: &Index<'_>) -> Option<Answer> {
+    let spp = index.default_spp()?;
+    let metric = &index.summary.study.primary_metric;
+    let (name, best) = (index.metric_name(metric), best_word(index, metric));
+    let mut wins: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    let mut groups: Vec<Vec<&str>> = Vec::new();
+    for scene in &index.summary.scenes {
+        let Some(&label) = index.ranking(&scene.id, spp, metric).first() else { continue };
+        wins.entry(label).or_default().push(scene.title.clone());
+        let tied = index.comparison(&scene.id, spp, metric).map(|c| c.best_group.iter().map(String::as_str));
+        groups.push(tied.into_iter().flatten().chain([label]).collect());
+    }
+    let total = groups.len();
+    let mut order: Vec<(&str, Vec<String>)> = wins.into_iter().collect();
+    order.sort_by_key(|(_, scenes)| Reverse(scenes.len()));
+    let everywhere = |(label, _): &&(&str, Vec<String>)| groups.iter().all(|g| g.contains(label));
+    let winner_is_named = order.len() == 1 || order.iter().any(|row| everywhere(&row));
+    let winner = order.iter().find(everywhere).or(order.first()).map(|(label, _)| *label)?;
+    let lead = match order.as_slice() {
+        [] => return None,
+        [(label, _)] if total == 1 => format!("At {spp} spp, {label} has the {best} {name}."),
+        [(label, _)] => format!("At {spp} spp, {label} has the {best} {name} on all {total} scenes."),
+        many => match many.iter().find(everywhere) {
+            Some((label, scenes)) => format!(
+                "At {spp} spp, {label} has the {best} {name} on {} of {total} scenes and is tied with the best on the others.",
+                scenes.len()
+            ),
+            None => {
+                let parts: Vec<String> = many
+                    .iter()
+                    .map(|(label, scenes)| format!("{label} on {}", format::list(scenes)))
+                    .collect();
+                format!("At {spp} spp no method is best everywhere. The {best} {name}: {}.", parts.join("; "))
+            }
+        },
+    };
+    let lead = match gain(index, winner, spp, metric) {
+        Some(range) if winner_is_named => {
+            format!("{lead} Its error is {range} times below plain Monte Carlo's.")
+        }
+        _ => lead,
+    };
+    Some(Answer { question: "Which is closest to the truth?", sentences: vec![lead], tone: "plain" })
+}
+
+/// Range over the scenes of how many times a row's error is below plain Monte Carlo's, if it is below on all.
+fn gain(index: &Index<'_>, label: &str, spp: u32, metric: &str) -> Option<String> {
+    let of = |scene: &SceneSummary| Some(index.cell(&scene.id, spp, label)?.ratio_to_mc.get(metric)?.value);
+    let ratios: Vec<f64> = index.summary.scenes.iter().filter_map(of).collect();
+    let low = ratios.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = ratios.iter().copied().fold(0.0, f64::max);
+    if Some(label) == index.baseline() || !(low > 0.0 && high < 1.0) {
+        return None;
+    }
+    let (least, most) = (format::ratio(1.0 / high), format::ratio(1.0 / low));
+    Some(if least == most { least } else { format!("{least} to {most}") })
+}
+
+fn best_word(index: &Index<'_>, metric: &str) -> &'static str {
+    if index.metric(metric).is_none_or(|m| m.lower_is_better) { "lowest" } else { "highest" }
+}
+
+fn cost(index: &Index<'_>) -> Option<Answer> {
+    let spp = index.default_spp()?;
+    let mut times: Vec<(f64, &str)> = Vec::new();
+    for method in index.summary.methods.iter().filter(|m| m.method != "mc") {
+        let seconds = index
+            .summary
+            .scenes
+            .iter()
+            .filter_map(|s| index.cell(&s.id, spp, &method.label)?.denoise_seconds)
+            .fold(0.0, f64::max);
+        if seconds > 0.0 {
+            times.push((seconds, &method.label));
+        }
+    }
+    times.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut sentence = match times.as_slice() {
+        [] => return None,
+        [(t, label)] => format!("{label} takes {} a frame", format::duration(*t)),
+        [fast, .., slow] => format!(
+            "From {} ({}) to {} ({}) a frame",
+            format::duration(fast.0),
+            fast.1,
+            format::duration(slow.0),
+            slow.1
+        ),
+    };
+    let rendering: Vec<f64> =
+        index.summary.scenes.iter().filter_map(|s| s.render_seconds.get(&spp).copied()).collect();
+    let longest = rendering.iter().copied().fold(0.0, f64::max);
+    let shortest = rendering.iter().copied().fold(f64::INFINITY, f64::min);
+    if longest > 0.0 {
+        let span = if longest < 1.2 * shortest {
+            format::duration(longest)
+        } else {
+            format!("{} to {}", format::duration(shortest), format::duration(longest))
+        };
+        sentence += &format!(", beside {span} for rendering its {spp} spp");
+    }
+    Some(Answer { question: "What does it cost?", sentences: vec![sentence + "."], tone: "plain" })
+}
+
+fn claims(index: &Index<'_>) -> Option<Answer> {
+    let summary = index.summary;
+    let mut sentences = Vec::new();
+    let mut tone = "good";
+    sentences.extend(coverage_sentence(index));
+    for (proven, kind) in [(true, "proven"), (false, "printed but unproven")] {
+        let of_kind: Vec<_> =
+            summary.bounds.iter().filter(|b| b.class == "all" && b.proven == proven).collect();
+        if of_kind.is_empty() {
+            continue;
+        }
+        let broken = of_kind.iter().filter(|b| b.verdict == "fails").count();
+        if broken > 0 {
+            tone = "bad";
+            let worst = of_kind
+                .iter()
+                .max_by(|a, b| (a.violations.value * b.alpha).total_cmp(&(b.violations.value * a.alpha)));
+            let example = worst.map_or_else(String::new, |b| {
+                format!(
+                    "; worst {} beside a promised {} ({}, {} spp, {})",
+                    format::percent(b.violations.value),
+                    format::percent_short(b.alpha),
+                    index.scene_title(&b.scene),
+                    b.spp,
+                    b.label
+                )
+            });
+            sentences.push(format!(
+                "The {kind} error bounds were broken more often than promised in {broken} of {} cells{example}.",
+                of_kind.len()
+            ));
+        } else {
+            sentences.push(format!(
+                "The {kind} error bounds were broken no more often than promised in all {} cells.",
+                of_kind.len()
+            ));
+        }
+    }
+    let ratios: Vec<f64> = summary.cells.iter().filter_map(|c| c.enclosure_worst_ratio).collect();
+    if !ratios.is_empty() {
+        let worst = ratios.iter().copied().fold(0.0, f64::max);
+        if worst <= 1.0 {
+            sentences.push("No output left its confidence interval where the method promises that.".into());
+        } else {
+            tone = "bad";
+            sentences.push(format!(
+                "An output left the interval that its method promises, by a factor of {}.",
+                format::ratio(worst)
+            ));
+        }
+    }
+    (!sentences.is_empty()).then_some(Answer { question: "Do the statistical claims hold?", sentences, tone })
+}
+
+/// Range of the coverage over the scenes at the first and the last level, for the lowest nominal level.
+fn coverage_sentence(index: &Index<'_>) -> Option<String> {
+    let all = || index.summary.coverage.iter().filter(|c| c.class == "all");
+    let nominal = all().map(|c| c.confidence).fold(f64::INFINITY, f64::min);
+    let (first, last) = (all().map(|c| c.spp).min()?, all().map(|c| c.spp).max()?);
+    let range = |spp: u32| {
+        let values = all().filter(|c| c.spp == spp && c.confidence == nominal).map(|c| c.covered.value);
+        let (low, high) =
+            values.fold((f64::INFINITY, 0.0f64), |(low, high), v| (f64::min(low, v), high.max(v)));
+        let (low, high) = (format::percent(low), format::percent(high));
+        let text = if low == high { low } else { format!("{} to {high}", low.trim_end_matches(" %")) };
+        format!("{text} of the pixels at {spp} spp")
+    };
+    let at_last = if last > first { format!(", {}", range(last)) } else { String::new() };
+    let nominal = format::percent_short(nominal);
+    Some(format!("Nominal {nominal} intervals of the input cover {}{at_last}.", range(first)))
+}
+
+fn breaks(index: &Index<'_>) -> Answer {
+    let summary = index.summary;
+    let count = |status: &str| summary.skipped.iter().filter(|s| s.status == status).count();
+    let (failed, skipped) = (count("failed"), count("skipped"));
+    let lost: u64 = summary.cells.iter().map(|c| c.non_finite_output).sum();
+    let mut sentences = Vec::new();
+    if failed + skipped == 0 {
+        sentences.push("Every method ran on every frame.".to_owned());
+    }
+    if skipped > 0 {
+        let reasons = format::plural(skipped, "row");
+        sentences.push(format!("{reasons} skipped for want of inputs, listed below the tables."));
+    }
+    if failed > 0 {
+        sentences.push(format!("{} ended in an error.", format::plural(failed, "row")));
+    }
+    if lost > 0 {
+        sentences.push(format!("{lost} output values were not finite."));
+    } else {
+        sentences.push("All outputs are finite.".into());
+    }
+    let tone = if failed > 0 || lost > 0 { "bad" } else { "good" };
+    Answer { question: "Does anything break?", sentences, tone }
+}
+
+/// The best rows of all scenes and levels.
+pub(crate) fn board(index: &Index<'_>) -> Board {
+    let study = &index.summary.study;
+    let metric = &study.primary_metric;
+    let rows = index.summary.scenes.iter().map(|scene| BoardRow {
+        title: scene.title.clone(),
+        cells: study.spp.iter().map(|&spp| board_cell(index, &scene.id, spp, metric)).collect(),
+    });
+    Board { rows: rows.collect(), spp: study.spp.clone(), chosen: index.default_spp() }
+}
+
+fn board_cell(index: &Index<'_>, scene: &str, spp: u32, metric: &str) -> Option<BoardCell> {
+    let label = *index.ranking(scene, spp, metric).first()?;
+    let cell = index.cell(scene, spp, label)?;
+    let is_baseline = Some(label) == index.baseline();
+    let factor = match cell.ratio_to_mc.get(metric) {
+        _ if is_baseline => String::new(),
+        Some(r) if r.value > 0.0 => format!("{}× lower", format::ratio(1.0 / r.value)),
+        _ => cell.metrics.get(metric).map(|i| format::interval(i).value).unwrap_or_default(),
+    };
+    Some(BoardCell {
+        label: label.to_owned(),
+        swatch: index.summary.methods.iter().position(|m| m.label == label).unwrap_or(0),
+        factor,
+        tied: tied(index.comparison(scene, spp, metric), label),
+        is_baseline,
+    })
+}
+
+fn tied(comparison: Option<&Comparison>, label: &str) -> Vec<String> {
+    comparison.map_or_else(Vec::new, |c| c.best_group.iter().filter(|l| *l != label).cloned().collect())
+}
+
+/// One card per scene at the level that the page opens with.
+pub(crate) fn cards(index: &Index<'_>) -> Vec<SceneCard> {
+    let Some(spp) = index.default_spp() else { return Vec::new() };
+    index.summary.scenes.iter().map(|scene| card(index, scene, spp)).collect()
+}
+
+fn card(index: &Index<'_>, scene: &SceneSummary, spp: u32) -> SceneCard {
+    let metric = &index.summary.study.primary_metric;
+    let ranking = index.ranking(&scene.id, spp, metric);
+    let baseline = index.baseline();
+    let best = ranking.first().copied();
+    let mut shown: Vec<String> = baseline.map(str::to_owned).into_iter().collect();
+    // Where nothing beats the input, the next best shows what denoising did.
+    shown.extend(ranking.iter().find(|l| Some(**l) != baseline).map(|l| (*l).to_owned()));
+    let sentences = best.map_or_else(
+        || vec![format!("Nothing ran at {spp} spp.")],
+        |label| sentences(index, &scene.id, spp, metric, label),
+    );
+    let shown_json = serde_json::Value::from(shown.clone()).to_string();
+    SceneCard { id: scene.id.clone(), title: scene.title.clone(), sentences, spp, shown, shown_json }
+}
+
+fn sentences(index: &Index<'_>, scene: &str, spp: u32, metric: &str, label: &str) -> Vec<String> {
+    let (name, best) = (index.metric_name(metric), best_word(index, metric));
+    let baseline = index.baseline();
+    let group = tied(index.comparison(scene, spp, metric), label);
+    let mut out = Vec::new();
+    if Some(label) == baseline {
+        out.push(format!("At {spp} spp no method beats the unfiltered input in {name}."));
+    } else {
+        let mut sentence = format!("At {spp} spp, {label} has the {best} {name}");
+        let cell = index.cell(scene, spp, label);
+        let ratio = cell.and_then(|c| c.ratio_to_mc.get(metric)).filter(|r| r.value > 0.0);
+        if let Some(ratio) = ratio {
+            sentence += &format!(", {} below plain Monte Carlo", times(ratio));
+        }
+        let equal = cell.and_then(|c| c.equal_error.get(metric)).filter(|e| e.value > 0.0);
+        if let Some(equal) = equal {
+            let beyond = cell.and_then(|c| c.equal_error_extrapolated.get(metric)) == Some(&true);
+            let note = if beyond { " (extrapolated)" } else { "" };
+            sentence += &format!(
+                ". Plain Monte Carlo needs {}× the samples for that{note}",
+                format::ratio(equal.value)
+            );
+        }
+        out.push(sentence + ".");
+    }
+    if !group.is_empty() {
+        out.push(format!("The replicates cannot tell it from {}.", format::list(&group)));
+    }
+    out
+}
+
+/// `5.2 times (95 % interval 4.9 to 5.5)` from a ratio below one.
+fn times(ratio: &Interval) -> String {
+    let factor = format!("{} times", format::ratio(1.0 / ratio.value));
+    match (ratio.low, ratio.high) {
+        (Some(low), Some(high)) if low > 0.0 => format!(
+            "{factor} ({} interval {} to {})",
+            format::percent_short(ratio.confidence),
+            format::ratio(1.0 / high),
+            format::ratio(1.0 / low)
+        ),
+        _ => factor,
+    }
+}

@@ -1,0 +1,222 @@
+//! The page's contents as plain texts, in the order of the template.
+
+mod claims;
+mod headline;
+mod slopes;
+mod table;
+mod words;
+
+use noisefloor_harness::summary::{Environment, MetricInfo, Summary};
+use serde::Serialize;
+
+use crate::format;
+use crate::index::Index;
+pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
+pub(crate) use headline::{Answer, Board, SceneCard};
+pub(crate) use slopes::SlopeTable;
+pub(crate) use table::SceneTable;
+
+/// Everything but plots and images.
+#[derive(Debug, Serialize)]
+pub(crate) struct Page {
+    pub title: String,
+    pub study: String,
+    pub question: String,
+    pub reproduces: Option<String>,
+    pub analysis: Vec<String>,
+    pub command: String,
+    pub environment: Vec<(String, String)>,
+    pub date: String,
+    pub version: String,
+    pub warnings: Vec<String>,
+    pub answers: Vec<Answer>,
+    pub board: Board,
+    pub cards: Vec<SceneCard>,
+    pub metric: String,
+    pub uncertainty: String,
+    pub levels: Vec<Level>,
+    pub tables: Vec<SceneTable>,
+    pub failures: Vec<Failure>,
+    pub coverage: Vec<CoverageView>,
+    pub bounds: Vec<BoundsView>,
+    pub enclosures: Option<EnclosureView>,
+    pub slopes: Vec<SlopeTable>,
+    pub methods: Vec<MethodView>,
+    pub metrics: Vec<MetricInfo>,
+    pub scenes: Vec<SceneView>,
+}
+
+/// A samples-per-pixel level that the tables can show.
+#[derive(Debug, Serialize)]
+pub(crate) struct Level {
+    pub spp: u32,
+    pub chosen: bool,
+}
+
+/// A row that did not run somewhere.
+#[derive(Debug, Serialize)]
+pub(crate) struct Failure {
+    pub scene: String,
+    pub label: String,
+    pub spp: String,
+    pub status: String,
+    pub reason: String,
+}
+
+/// A row of the study, explained.
+#[derive(Debug, Serialize)]
+pub(crate) struct MethodView {
+    pub label: String,
+    pub swatch: usize,
+    pub method: String,
+    pub name: String,
+    pub citation: String,
+    pub reference: String,
+    pub params: Vec<(String, String)>,
+    pub notes: Vec<String>,
+}
+
+/// A scene, explained.
+#[derive(Debug, Serialize)]
+pub(crate) struct SceneView {
+    pub title: String,
+    pub id: String,
+    pub about: String,
+    pub facts: Vec<(String, String)>,
+    pub reference: Vec<(String, String)>,
+}
+
+/// Makes all texts of the page.
+pub(crate) fn page(index: &Index<'_>) -> Page {
+    let summary = index.summary;
+    let study = &summary.study;
+    let chosen = index.default_spp();
+    Page {
+        title: study.title.clone(),
+        study: study.name.clone(),
+        question: study.question.clone(),
+        reproduces: study.reproduces.clone(),
+        analysis: study.analysis.clone(),
+        command: study.command.clone(),
+        environment: environment(&summary.environment),
+        date: summary.environment.date.clone(),
+        version: summary.environment.version.clone(),
+        warnings: warnings(summary),
+        answers: headline::answers(index),
+        board: headline::board(index),
+        cards: headline::cards(index),
+        metric: index.metric_name(&study.primary_metric),
+        uncertainty: words::uncertainty(summary),
+        levels: study.spp.iter().map(|&spp| Level { spp, chosen: Some(spp) == chosen }).collect(),
+        tables: summary.scenes.iter().map(|s| table::scene(index, s)).collect(),
+        failures: failures(index),
+        coverage: summary.scenes.iter().filter_map(|s| claims::coverage(index, s)).collect(),
+        bounds: summary.scenes.iter().filter_map(|s| claims::bounds(index, s)).collect(),
+        enclosures: claims::enclosures(index),
+        slopes: slopes::tables(index),
+        methods: methods(index),
+        metrics: study.metrics.clone(),
+        scenes: scenes(summary),
+    }
+}
+
+/// The study's own warnings, and those that the numbers of the summary add.
+fn warnings(summary: &Summary) -> Vec<String> {
+    let mut warnings = summary.warnings.clone();
+    let environment = &summary.environment;
+    if environment.profile == "debug" {
+        warnings.push("Times were taken with a debug build and say nothing about speed.".into());
+    }
+    let busy = environment.load_at_start.filter(|load| *load > 0.5 && environment.logical_cpus > 0);
+    if let Some(load) = busy {
+        warnings.push(format!(
+            "The machine was not idle when the study began (load {} on {}): times may be too long.",
+            format::significant(load, 2),
+            format::plural(environment.logical_cpus as usize, "logical processor"),
+        ));
+    }
+    let lost: u64 = summary.cells.iter().map(|c| c.non_finite_output).sum();
+    if lost > 0 {
+        warnings
+            .push(format!("{lost} output values were not finite; their pixels are left out of the metrics."));
+    }
+    warnings
+}
+
+fn environment(e: &Environment) -> Vec<(String, String)> {
+    let mut facts = vec![
+        ("Program", format!("noisefloor {}", e.version)),
+        ("Build", e.profile.clone()),
+        ("Processor", e.cpu.clone()),
+        ("Logical processors", e.logical_cpus.to_string()),
+        ("Threads used", e.threads.to_string()),
+        ("Instruction set", e.simd.clone()),
+        ("Platform", e.platform.clone()),
+    ];
+    if let Some(load) = e.load_at_start {
+        facts.push(("Load at start", format::significant(load, 2)));
+    }
+    facts.push(("Date", e.date.clone()));
+    pairs(facts)
+}
+
+/// Named values without the empty ones.
+fn pairs(facts: Vec<(&str, String)>) -> Vec<(String, String)> {
+    facts.into_iter().filter(|(_, v)| !v.is_empty()).map(|(k, v)| (k.to_owned(), v)).collect()
+}
+
+fn failures(index: &Index<'_>) -> Vec<Failure> {
+    index
+        .summary
+        .skipped
+        .iter()
+        .map(|s| Failure {
+            scene: index.scene_title(&s.scene),
+            label: s.label.clone(),
+            spp: words::levels(&s.spp),
+            status: s.status.clone(),
+            reason: s.reason.clone(),
+        })
+        .collect()
+}
+
+fn methods(index: &Index<'_>) -> Vec<MethodView> {
+    let view = |(swatch, m): (usize, &noisefloor_harness::summary::MethodSummary)| MethodView {
+        label: m.label.clone(),
+        swatch,
+        method: m.method.clone(),
+        name: m.name.clone(),
+        citation: m.citation.clone(),
+        reference: m.reference.clone(),
+        params: words::parameters(&m.params),
+        notes: m.notes.clone(),
+    };
+    index.summary.methods.iter().enumerate().map(view).collect()
+}
+
+fn scenes(summary: &Summary) -> Vec<SceneView> {
+    summary
+        .scenes
+        .iter()
+        .map(|s| {
+            let mut facts = vec![("Size".to_owned(), format!("{}×{} pixels", s.width, s.height))];
+            facts.push(("Replicates".into(), words::replicates(&s.replicates)));
+            facts.extend(s.settings.iter().map(|(k, v)| (k.clone(), v.clone())));
+            if !s.classes.is_empty() {
+                let all = f64::from(s.width) * f64::from(s.height);
+                let share = |(class, n): (&String, &u64)| {
+                    format!("{class} {}", format::percent(*n as f64 / all.max(1.0)))
+                };
+                let classes: Vec<String> = s.classes.iter().map(share).collect();
+                facts.push(("Pixel classes".into(), classes.join(" · ")));
+            }
+            SceneView {
+                title: s.title.clone(),
+                id: s.id.clone(),
+                about: s.about.clone(),
+                facts,
+                reference: words::reference(&s.reference),
+            }
+        })
+        .collect()
+}
