@@ -1,11 +1,10 @@
 //! `noisefloor methods`.
 
-use noisefloor_denoiser::{Entry, Need};
+use noisefloor_denoiser::{Entry, Guarded, Need};
 use serde_json::{Map, Value, json};
 
 use crate::args::List;
 use crate::context::Context;
-use crate::table::aligned;
 
 pub fn run(context: &Context, args: &List) -> anyhow::Result<()> {
     let entries = context.registry.entries();
@@ -41,10 +40,8 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<()> {
         println!();
     }
     println!("guarded(ID)\n  any method, projected into the confidence interval of the input mean");
-    print!(
-        "{}",
-        aligned(&[vec!["    guard_level = 0.99".into(), "[two-sided confidence in (0, 1)]".into()]])
-    );
+    let (guard, level) = (Guarded::PARAM, Guarded::DEFAULT_LEVEL.confidence());
+    println!("    {} = {level}  [{}]  {}", guard.name, guard.range, guard.about);
     Ok(())
 }
 

@@ -28,6 +28,8 @@ impl Sampling {
 
 /// The virtual flash image (Moon et al. 2013, Sec. 3.1).
 #[derive(Debug, Clone, PartialEq)]
+// A frame has at most one of these beside megabytes of pixels: a box would save nothing.
+#[expect(clippy::large_enum_variant)]
 pub enum Flash {
     /// Reused light F0 and the eye light S at unit intensity, kept apart because the intensity I of
     /// F = F0 + I·S is chosen after rendering.

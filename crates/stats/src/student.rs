@@ -4,9 +4,14 @@ use crate::Level;
 
 /// Critical value of Student's t at `level` with `degrees` ≥ 1 degrees of freedom.
 ///
-/// Newton steps on the distribution function refine the library's inverse, whose bisection stops early.
+/// Newton steps on the distribution function refine the library's inverse, whose bisection stops early. Above a
+/// million degrees of freedom it is the normal quantile, within 4e-6 relative at 99.8 %: the library's inverse does not
+/// end there.
 #[must_use]
 pub fn t_quantile(level: Level, degrees: u64) -> f64 {
+    if degrees > 1_000_000 {
+        return normal_quantile(level);
+    }
     let degrees = degrees.max(1) as f64;
     let t = StudentsT::new(0.0, 1.0, degrees).expect("location 0, scale 1, at least one degree of freedom");
     let tail = level.upper_tail();
@@ -129,6 +134,13 @@ mod tests {
             last = table.at(n);
         }
         assert!((table.at(TTable::LARGEST) / table.at(u32::MAX) - 1.0).abs() < 4e-4);
+    }
+
+    #[test]
+    fn huge_counts_meet_the_normal_quantile() {
+        let (below, above) =
+            (t_quantile(Level::TWO_SIDED_998, 1_000_000), t_quantile(Level::TWO_SIDED_998, u64::MAX));
+        assert!(below > above && below / above < 1.0 + 4e-6, "{below} {above}");
     }
 
     #[test]
