@@ -37,7 +37,7 @@ pub fn summary_table(summary: &Summary) -> String {
             let value = |c: Option<&noisefloor_harness::summary::CellSummary>, ratio: bool| {
                 let of =
                     c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
-                of.map_or_else(|| "–".into(), |interval| with_interval(interval))
+                of.map_or_else(|| "–".into(), with_interval)
             };
             rows.push(vec![
                 method.label.clone(),
