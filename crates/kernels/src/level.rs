@@ -17,7 +17,7 @@ pub enum Level {
     Portable,
     /// 256-bit AVX2 with FMA, 8 lanes.
     Avx2,
-    /// 512-bit AVX-512F, 16 lanes.
+    /// 512-bit AVX-512F with AVX-512DQ, 16 lanes.
     Avx512,
 }
 
@@ -43,7 +43,7 @@ impl Level {
             #[cfg(target_arch = "x86_64")]
             Level::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => is_x86_feature_detected!("avx512f"),
+            Level::Avx512 => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq"),
             #[cfg(not(target_arch = "x86_64"))]
             Level::Avx2 | Level::Avx512 => false,
         }

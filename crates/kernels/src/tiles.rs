@@ -56,9 +56,28 @@ pub(crate) fn for_each_tile<S, const N: usize>(
     tiles.into_par_iter().for_each_init(scratch, |scratch, (tile, rows)| body(scratch, tile, rows));
 }
 
+/// Index of the first value that is not `ok`, searched in parallel on the current rayon pool.
+pub(crate) fn first_bad(values: &[f32], ok: impl Fn(f32) -> bool + Sync) -> Option<usize> {
+    // Whole chunks without an early exit inside, so that the usual case, all well, runs at the speed of memory.
+    const CHUNK: usize = 1 << 14;
+    let bad = |chunk: &[f32]| !chunk.iter().fold(true, |all, &v| all & ok(v));
+    let start = CHUNK * values.par_chunks(CHUNK).position_first(bad)?;
+    values[start..].iter().position(|&v| !ok(v)).map(|i| start + i)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_first_bad_value_is_found() {
+        let mut values = vec![1.0; 100_000];
+        assert_eq!(first_bad(&values, |v| v > 0.0), None);
+        for bad in [99_999, 70_000, 16_384, 16_383, 0] {
+            values[bad] = -1.0;
+            assert_eq!(first_bad(&values, |v| v > 0.0), Some(bad));
+        }
+    }
 
     #[test]
     fn tiles_cover_every_pixel_of_every_plane_once() {

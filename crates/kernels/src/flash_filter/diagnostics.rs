@@ -1,6 +1,7 @@
 //! Looking inside the filter: how many pixels are homogeneous with each, and which ones for a chosen pixel.
 
 use super::members::Tests;
+use super::naive::WeightsF64;
 use super::{FlashFilterError, FlashInputs, FlashParams};
 
 /// The window around one pixel: who belongs to its set, and with what weight.
@@ -61,6 +62,7 @@ pub fn homogeneous_window(
         return Err(FlashFilterError::PixelOutside { x, y, width: w, height: h });
     }
     let tests = Tests::new(inputs);
+    let weights = WeightsF64::new(params, inputs);
     let r = params.window_radius as isize;
     let side = 2 * params.window_radius + 1;
     let mut window = HomogeneousWindow {
@@ -74,7 +76,7 @@ pub fn homogeneous_window(
             continue;
         }
         let members = tests.members(y * w + x, qy as usize * w + qx as usize);
-        let weight = super::naive::weight_f64(params, inputs, (x as isize, y as isize), (qx, qy)) as f32;
+        let weight = weights.weight((x as isize, y as isize), (qx, qy)) as f32;
         let cell = (dy + r) as usize * side + (dx + r) as usize;
         for c in (0..3).filter(|&c| members[c]) {
             window.member[c][cell] = true;

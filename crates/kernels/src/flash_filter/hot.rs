@@ -158,44 +158,73 @@ unsafe fn patch_columns<S: Simd, const PATCH: usize, const N: usize>(
     block: &Block,
     first: usize,
 ) {
-    let layout = tile.layout;
-    let (guide, sums) = (&layout.guide, &layout.sums);
+    // Copies, so that stores to the planes cannot make the compiler read any of this again.
+    let Layout { guide, columns, .. } = *tile.layout;
+    let (planes, width, taps) = (tile.guide, tile.width, tile.taps);
     // Index of the patch area's first vector: `PATCH` rows above and columns left of the tile.
-    let corner = (guide.above - PATCH + block.rows.start) * guide.pitch + guide.left - PATCH;
+    let corner = guide.origin() + block.rows.start * guide.pitch - PATCH * guide.pitch - PATCH;
     let shift = block.dy * guide.pitch as isize + block.dx + first as isize;
-    let taps = tile.taps;
     let mut x = 0;
     // SAFETY: the caller vouches for the instruction set; the guide copies reach `reach + patch` pixels beyond
     // the tile on every side, and the sums hold the tile and `patch` columns on both sides.
     unsafe {
-        while x < tile.width + 2 * PATCH {
+        while x < width + 2 * PATCH {
             let mut window = [[S::splat(0.0); N]; 2 * MAX_PATCH_RADIUS + 1];
             let mut here = corner + x;
             for row in window.iter_mut().take(2 * PATCH) {
-                *row = squares::<S, N>(tile.guide, guide.plane, here, here.wrapping_add_signed(shift));
+                *row = squares::<S, N>(planes, guide.plane, here, here.wrapping_add_signed(shift));
                 here += guide.pitch;
             }
-            let mut to = first * sums.plane + block.rows.start * sums.pitch + x;
+            let mut to = first * columns.plane + block.rows.start * columns.pitch + x;
             for _ in block.rows.clone() {
                 window[2 * PATCH] =
-                    squares::<S, N>(tile.guide, guide.plane, here, here.wrapping_add_signed(shift));
+                    squares::<S, N>(planes, guide.plane, here, here.wrapping_add_signed(shift));
                 for o in 0..N {
                     let mut sum = window[PATCH][o];
                     for i in 1..=PATCH {
                         let pair = S::add(window[PATCH - i][o], window[PATCH + i][o]);
                         sum = S::fma(S::splat(taps[i]), pair, sum);
                     }
-                    put::<S>(tile.columns, to + o * sums.plane, sum);
+                    put::<S>(tile.columns, to + o * columns.plane, sum);
                 }
                 for i in 0..2 * PATCH {
                     window[i] = window[i + 1];
                 }
                 here += guide.pitch;
-                to += sums.pitch;
+                to += columns.pitch;
             }
             x += S::LANES;
         }
     }
+}
+
+/// Horizontal patch sum at `from + PATCH`, from the vertical sums.
+///
+/// # Safety
+/// As [`pass`], with 2·`LANES` values at `from`.
+#[inline(always)]
+unsafe fn patch_sum<S: Simd, const PATCH: usize>(columns: &[f32], from: usize, taps: &[f32]) -> S::F {
+    debug_assert!(from + 2 * S::LANES <= columns.len());
+    // SAFETY: as the caller vouches.
+    unsafe {
+        let from = columns.as_ptr().add(from);
+        let mut sum = S::load_beside(from, PATCH);
+        for i in 1..=PATCH {
+            let pair = S::add(S::load_beside(from, PATCH - i), S::load_beside(from, PATCH + i));
+            sum = S::fma(S::splat(taps[i]), pair, sum);
+        }
+        sum
+    }
+}
+
+/// The weight where `member` holds, else 0: with a guide from the two factors that `exp2` gives.
+///
+/// # Safety
+/// The instruction set is available.
+#[inline(always)]
+unsafe fn weigh<S: Simd, const GUIDED: bool>(member: S::M, weight: S::F, scale: S::F) -> S::F {
+    // SAFETY: as the caller vouches.
+    unsafe { if GUIDED { S::keep_scaled(member, weight, scale) } else { S::keep(member, weight) } }
 }
 
 /// Adds the block's offsets to the running sums of every pixel of the tile.
@@ -207,10 +236,9 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
     tile: &mut TileView<'_>,
     block: &Block,
 ) {
-    let layout = tile.layout;
-    let (source, pixel, sums) = (&layout.source, &layout.pixel, &layout.sums);
+    let Layout { source, pixel, columns, .. } = *tile.layout;
     let shift = block.dy * source.pitch as isize + block.dx;
-    let taps = tile.taps;
+    let (taps, count) = (tile.taps, block.count.min(BLOCK));
     // SAFETY: the caller vouches for the instruction set; the source copies reach `reach` pixels beyond the tile.
     unsafe {
         let lowest = S::splat(-126.0);
@@ -220,7 +248,7 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                 let here = y * pixel.pitch + x;
                 let center = source.origin() + y * source.pitch + x;
                 let there = center.wrapping_add_signed(shift);
-                let columns = y * sums.pitch + x;
+                let from = y * columns.pitch + x;
                 let mut p = [S::splat(0.0); 4];
                 let mut half_width = [S::splat(0.0); 3];
                 for c in 0..3 {
@@ -242,20 +270,13 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                         weights[c] = at::<S>(tile.sums, (3 + c) * pixel.plane + here);
                     }
                 }
-                for o in 0..block.count {
+                for o in 0..count {
                     let spatial = S::splat(block.spatial[o]);
-                    let mut exponent = lowest;
-                    let mut weight = spatial;
+                    let (mut exponent, mut weight, mut scale) = (lowest, spatial, lowest);
                     if GUIDED {
-                        let from = o * sums.plane + columns;
-                        let mut patch = at::<S>(tile.columns, from + PATCH);
-                        for i in 1..=PATCH {
-                            let left = at::<S>(tile.columns, from + PATCH - i);
-                            let pair = S::add(left, at::<S>(tile.columns, from + PATCH + i));
-                            patch = S::fma(S::splat(taps[i]), pair, patch);
-                        }
+                        let patch = patch_sum::<S, PATCH>(tile.columns, from + o * columns.plane, &taps);
                         exponent = S::fma(patch, factor, spatial);
-                        weight = S::exp2(exponent);
+                        (weight, scale) = S::exp2(exponent);
                     }
                     // False for weights below the normal range and for the NaN of an overflowed distance.
                     let alike = S::le(lowest, exponent);
@@ -265,7 +286,8 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                     }
                     if RULE == SEPARATE {
                         for c in 0..3 {
-                            let w = S::keep(S::and_le(alike, S::abs(d[c]), half_width[c]), weight);
+                            let member = S::and_le(alike, S::abs(d[c]), half_width[c]);
+                            let w = weigh::<S, GUIDED>(member, weight, scale);
                             sum[c] = S::fma(w, d[c], sum[c]);
                             weights[c] = S::add(weights[c], w);
                         }
@@ -280,7 +302,7 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                         let tested = S::sub(at::<S>(tile.source, 3 * source.plane + there + o), p[3]);
                         member = S::and_le(member, S::abs(tested), half_width[0]);
                     }
-                    let w = S::keep(member, weight);
+                    let w = weigh::<S, GUIDED>(member, weight, scale);
                     for c in 0..3 {
                         sum[c] = S::fma(w, d[c], sum[c]);
                     }

@@ -11,7 +11,7 @@ use crate::simd::MAX_LANES;
 const LINE: usize = 16;
 
 /// Most horizontal offsets that one pass over a tile handles together.
-pub(super) const BLOCK: usize = 8;
+pub(super) const BLOCK: usize = 16;
 
 /// Sizes and distances, in values.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,7 @@ pub(super) struct Layout {
     /// Half-widths, range factors and accumulators: the tile alone.
     pub pixel: Grid,
     /// Vertical patch sums: the tile and f columns on both sides, one plane for each offset of a block.
-    pub sums: Grid,
+    pub columns: Grid,
 }
 
 /// One kind of plane.
@@ -79,7 +79,7 @@ impl Layout {
                 tile_height + 2 * (reach + patch),
             ),
             pixel: Grid::new(0, 0, tile_width, tile_height),
-            sums: Grid::new(patch, 0, with_patch, tile_height),
+            columns: Grid::new(patch, 0, with_patch, tile_height),
         }
     }
 }

@@ -65,7 +65,7 @@ pub fn filter(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32
     params.check(inputs)?;
     let mut out = [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let [r, g, b] = &mut out;
-    filter_into(params, inputs, Level::best(), [r, g, b])?;
+    tiled::filter(params, inputs, Level::best(), tiled::TILE, [r, g, b]);
     Ok(out)
 }
 

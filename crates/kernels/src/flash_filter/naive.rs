@@ -21,42 +21,56 @@ pub(super) fn mirror(i: isize, n: usize) -> usize {
 }
 
 macro_rules! naive_twin {
-    ($real:ident, $(#[$doc:meta])* $filter:ident, $weight:ident) => {
-        /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1, whether `q` is in the set of `p` or not.
-        #[inline]
-        pub(super) fn $weight(
-            params: &FlashParams,
-            inputs: &FlashInputs<'_>,
-            (px, py): (isize, isize),
-            (qx, qy): (isize, isize),
-        ) -> $real {
-            let at = |x: isize, y: isize| mirror(y, params.height) * params.width + mirror(x, params.width);
-            let offset = ((qx - px).pow(2) + (qy - py).pow(2)) as $real;
-            let two_sigma_s2 = 2.0 * f64::from(params.spatial_sigma) * f64::from(params.spatial_sigma);
-            let mut weight = (-(offset / two_sigma_s2 as $real)).exp();
-            if offset == 0.0 {
-                weight = 1.0;
+    ($real:ident, $weights:ident, $(#[$doc:meta])* $filter:ident) => {
+        /// Weights of neighbours, whether or not they belong to the set.
+        #[derive(Debug)]
+        pub(super) struct $weights<'a> {
+            params: &'a FlashParams,
+            inputs: &'a FlashInputs<'a>,
+            /// 1/(2σ_s²).
+            spatial: $real,
+            /// Patch weights G in rows.
+            patch: Vec<$real>,
+        }
+
+        impl<'a> $weights<'a> {
+            pub fn new(params: &'a FlashParams, inputs: &'a FlashInputs<'a>) -> Self {
+                let f = params.patch.radius() as isize;
+                let tap = |i: isize| params.patch.tap(i.unsigned_abs());
+                let patch = (-f..=f).flat_map(|j| (-f..=f).map(move |i| (tap(j) * tap(i)) as $real)).collect();
+                // The largest finite number, so that offset 0 has exponent 0 for any σ_s.
+                let spatial = (0.5 / f64::from(params.spatial_sigma).powi(2)).min($real::MAX.into()) as $real;
+                Self { params, inputs, spatial, patch }
             }
-            let Some(guide) = inputs.guide else { return weight };
-            let f = params.patch.radius() as isize;
-            let mut distance = 0.0;
-            for j in -f..=f {
-                for i in -f..=f {
-                    let (a, b) = (at(px + i, py + j), at(qx + i, qy + j));
-                    let mut square = 0.0;
-                    for plane in guide.planes {
-                        let difference = plane[a] as $real - plane[b] as $real;
-                        square += difference * difference;
+
+            /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1.
+            #[inline]
+            pub fn weight(&self, (px, py): (isize, isize), (qx, qy): (isize, isize)) -> $real {
+                let (w, h) = (self.params.width, self.params.height);
+                let at = |x: isize, y: isize| mirror(y, h) * w + mirror(x, w);
+                let offset = ((qx - px).pow(2) + (qy - py).pow(2)) as $real;
+                let Some(guide) = self.inputs.guide else { return (-offset * self.spatial).exp() };
+                let f = self.params.patch.radius() as isize;
+                let mut distance = 0.0;
+                let mut taps = self.patch.iter();
+                for j in -f..=f {
+                    for (i, tap) in (-f..=f).zip(&mut taps) {
+                        let (a, b) = (at(px + i, py + j), at(qx + i, qy + j));
+                        let mut square = 0.0;
+                        for plane in guide.planes {
+                            let difference = plane[a] as $real - plane[b] as $real;
+                            square += difference * difference;
+                        }
+                        distance += tap * square;
                     }
-                    let tap = params.patch.tap(i.unsigned_abs()) * params.patch.tap(j.unsigned_abs());
-                    distance += tap as $real * square;
                 }
-            }
-            // A distance that overflows means "nothing alike".
-            if distance < $real::INFINITY {
-                weight * (-(distance / 3.0) * guide.inv_two_sigma_r2[params.width * py as usize + px as usize] as $real).exp()
-            } else {
-                0.0
+                if distance.is_finite() {
+                    let range = guide.inv_two_sigma_r2[at(px, py)] as $real;
+                    (-offset * self.spatial - distance / 3.0 * range).exp()
+                } else {
+                    // Overflow: nothing alike.
+                    0.0
+                }
             }
         }
 
@@ -70,11 +84,12 @@ macro_rules! naive_twin {
         ) -> Result<[Vec<$real>; 3], FlashFilterError> {
             params.check(inputs)?;
             let tests = Tests::new(inputs);
+            let weights = $weights::new(params, inputs);
             let (w, h, r) = (params.width as isize, params.height as isize, params.window_radius as isize);
             let mut out = [(); 3].map(|()| Vec::with_capacity(params.width * params.height));
             for (py, px) in (0..h).flat_map(|y| (0..w).map(move |x| (y, x))) {
                 let p = (py * w + px) as usize;
-                let (mut sum, mut weights) = ([0.0 as $real; 3], [0.0 as $real; 3]);
+                let (mut sum, mut total) = ([0.0 as $real; 3], [0.0 as $real; 3]);
                 for qy in (py - r).max(0)..=(py + r).min(h - 1) {
                     for qx in (px - r).max(0)..=(px + r).min(w - 1) {
                         let q = (qy * w + qx) as usize;
@@ -82,16 +97,16 @@ macro_rules! naive_twin {
                         if members == [false; 3] {
                             continue;
                         }
-                        let weight = $weight(params, inputs, (px, py), (qx, qy));
+                        let weight = weights.weight((px, py), (qx, qy));
                         for c in (0..3).filter(|&c| members[c]) {
                             sum[c] += weight * (inputs.source[c][q] as $real - inputs.source[c][p] as $real);
-                            weights[c] += weight;
+                            total[c] += weight;
                         }
                     }
                 }
                 for c in 0..3 {
                     // The pixel itself has weight exp(0) = 1, so the sum of weights is at least 1.
-                    out[c].push(inputs.source[c][p] as $real + sum[c] / weights[c]);
+                    out[c].push(inputs.source[c][p] as $real + sum[c] / total[c]);
                 }
             }
             Ok(out)
@@ -100,12 +115,12 @@ macro_rules! naive_twin {
 }
 
 naive_twin! {
-    f64,
+    f64, WeightsF64,
     /// The filter in double precision: the oracle.
-    filter_f64, weight_f64
+    filter_f64
 }
 naive_twin! {
-    f32,
+    f32, WeightsF32,
     /// The same loops in single precision: what a first implementation would be, and the baseline of speed ratios.
-    filter_f32, weight_f32
+    filter_f32
 }

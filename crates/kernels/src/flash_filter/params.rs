@@ -1,6 +1,7 @@
 //! Parameters and input planes of the flash filter, and the check that both make sense.
 
 use super::FlashFilterError;
+use crate::tiles::first_bad;
 
 /// Largest window radius in pixels.
 pub const MAX_WINDOW_RADIUS: usize = 32;
@@ -143,11 +144,7 @@ impl FlashParams {
             if values.len() != pixels {
                 return Err(FlashFilterError::PlaneLength { plane, expected: pixels, actual: values.len() });
             }
-            // Whole chunks without an early exit, so that the usual case runs at the speed of memory.
-            let bad = values.chunks(4096).position(|chunk| !chunk.iter().fold(true, |all, &v| all & ok(v)));
-            let Some(chunk) = bad else { return Ok(()) };
-            let start = chunk * 4096;
-            let index = start + values[start..].iter().position(|&v| !ok(v)).unwrap_or(0);
+            let Some(index) = first_bad(values, ok) else { return Ok(()) };
             let (x, y) = (index % width, index / width);
             Err(FlashFilterError::Value { plane, x, y, value: values[index], allowed })
         };

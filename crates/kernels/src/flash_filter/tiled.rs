@@ -91,7 +91,7 @@ impl Scratch {
         let planes = 4 * layout.source.plane
             + 3 * layout.guide.plane
             + 10 * layout.pixel.plane
-            + BLOCK * layout.sums.plane;
+            + BLOCK * layout.columns.plane;
         let memory = vec![0.0f32; planes + 16];
         // `align_offset` may give up and say usize::MAX; alignment is for speed only.
         let start = memory.as_ptr().align_offset(64).min(16);
@@ -223,14 +223,24 @@ impl Job<'_> {
                 let count = ((right - dx + 1) as usize).min(BLOCK);
                 let mut spatial = [0.0; BLOCK];
                 for (o, value) in spatial.iter_mut().enumerate().take(count) {
-                    let squared = dy.pow(2) + (dx + o as isize).pow(2);
-                    let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
-                    *value = if self.inputs.guide.is_some() { exponent } else { exponent.exp2() } as f32;
+                    *value = self.spatial(dy, dx + o as isize);
                 }
                 let block = Block { rows: rows.clone(), dy, dx, count, spatial };
                 self.dispatch(view, &block);
                 dx += BLOCK as isize;
             }
+        }
+    }
+
+    /// What a block holds for one offset: the exponent of the spatial weight, or without a guide the weight itself.
+    fn spatial(&self, dy: isize, dx: isize) -> f32 {
+        let squared = dy.pow(2) + dx.pow(2);
+        let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
+        match self.inputs.guide {
+            Some(_) => exponent as f32,
+            // As with a guide: no weight below the normal range.
+            None if exponent < -126.0 => 0.0,
+            None => exponent.exp2() as f32,
         }
     }
 
@@ -278,7 +288,7 @@ impl Job<'_> {
 /// # Safety
 /// As [`hot::pass`].
 #[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f")]
+#[target_feature(enable = "avx512f,avx512dq")]
 unsafe fn pass_avx512(view: &mut TileView<'_>, block: &Block, rule: usize) {
     // SAFETY: passed on unchanged.
     unsafe { hot::pass::<Avx512>(view, block, rule) }

@@ -1,4 +1,4 @@
-//! The operations in 512-bit AVX-512F.
+//! The operations in 512-bit AVX-512F and AVX-512DQ.
 
 use std::arch::x86_64::*;
 
@@ -12,7 +12,7 @@ macro_rules! lanewise {
     ($($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
         #[inline(always)]
         unsafe fn $name($($arg: $of),+) -> $result {
-            // SAFETY: the caller vouches for AVX-512F, and nothing here touches memory.
+            // SAFETY: the caller vouches for AVX-512F and AVX-512DQ, and nothing here touches memory.
             unsafe { $value }
         }
     )+};
@@ -34,16 +34,40 @@ impl Simd for Avx512 {
         and_le(mask: __mmask16, a: __m512, b: __m512) -> __mmask16
             = _mm512_mask_cmp_ps_mask::<_CMP_LE_OQ>(mask, a, b);
         keep(mask: __mmask16, value: __m512) -> __m512 = _mm512_maskz_mov_ps(mask, value);
-        shift_exponent(value: __m512, exponent: __m512) -> __m512 = _mm512_castsi512_ps(_mm512_add_epi32(
-            _mm512_castps_si512(value),
-            _mm512_slli_epi32::<23>(_mm512_castps_si512(exponent)),
-        ));
+        split(x: __m512) -> (__m512, __m512) = {
+            // What is left after rounding to the nearest integer: exact, and so is the integer.
+            let f = _mm512_reduce_ps::<0>(x);
+            (f, _mm512_sub_ps(x, f))
+        };
+        keep_scaled(mask: __mmask16, value: __m512, n: __m512) -> __m512
+            = _mm512_maskz_scalef_ps(mask, value, n);
     }
 
     #[inline(always)]
     unsafe fn load(from: *const f32) -> __m512 {
         // SAFETY: the caller vouches for sixteen readable values; this load needs no alignment.
         unsafe { _mm512_loadu_ps(from) }
+    }
+
+    /// Takes the vector out of the two aligned ones that hold it: every load of this size that is not aligned
+    /// crosses a cache line and counts twice.
+    #[inline(always)]
+    unsafe fn load_beside(from: *const f32, i: usize) -> __m512 {
+        // SAFETY: the caller vouches for 32 readable values.
+        unsafe {
+            let low = _mm512_castps_si512(_mm512_loadu_ps(from));
+            let high = _mm512_castps_si512(_mm512_loadu_ps(from.add(16)));
+            // `i` is a constant after inlining: one arm remains.
+            _mm512_castsi512_ps(match i {
+                0 => low,
+                1 => _mm512_alignr_epi32::<1>(high, low),
+                2 => _mm512_alignr_epi32::<2>(high, low),
+                3 => _mm512_alignr_epi32::<3>(high, low),
+                4 => _mm512_alignr_epi32::<4>(high, low),
+                5 => _mm512_alignr_epi32::<5>(high, low),
+                _ => _mm512_alignr_epi32::<6>(high, low),
+            })
+        }
     }
 
     #[inline(always)]

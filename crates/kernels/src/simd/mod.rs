@@ -19,11 +19,17 @@ pub(crate) use portable::Portable;
 /// Lanes of the widest instruction set. Buffers are padded to this.
 pub(crate) const MAX_LANES: usize = 16;
 
+/// Adding this to a value of less than 2^21 leaves the nearest integer in the low bits of the mantissa.
+const ROUND: f32 = 12_582_912.0;
+
+/// Minimax polynomial of 2^f on [-1/2, 1/2], constant term 1, from the highest power down.
+const EXP2: [f32; 6] = [0.001_327_647_2, 0.009_675_542, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.0];
+
 /// Vector operations of one instruction set.
 ///
 /// # Safety
 /// Every method may only run where the processor has the instruction set. `load` and `store` also need `LANES`
-/// readable or writable values at the pointer; no alignment is needed.
+/// readable or writable values at the pointer, `load_beside` twice as many; no alignment is needed.
 pub(crate) trait Simd {
     /// Values per vector; divides [`MAX_LANES`].
     const LANES: usize;
@@ -33,6 +39,8 @@ pub(crate) trait Simd {
     type M: Copy;
 
     unsafe fn load(from: *const f32) -> Self::F;
+    /// Loads from `from + i`, 0 ≤ `i` ≤ 6. Several such loads with one `from` may share what they read.
+    unsafe fn load_beside(from: *const f32, i: usize) -> Self::F;
     unsafe fn store(to: *mut f32, value: Self::F);
     unsafe fn splat(value: f32) -> Self::F;
     unsafe fn add(a: Self::F, b: Self::F) -> Self::F;
@@ -47,28 +55,69 @@ pub(crate) trait Simd {
     unsafe fn and_le(mask: Self::M, a: Self::F, b: Self::F) -> Self::M;
     /// The value where the mask holds, +0 elsewhere.
     unsafe fn keep(mask: Self::M, value: Self::F) -> Self::F;
-    /// Adds the low 9 bits of `exponent`, as a signed number, to the binary exponent of `value`.
-    unsafe fn shift_exponent(value: Self::F, exponent: Self::F) -> Self::F;
+    /// x − n and n, with n the integer nearest to x, ties to even. n is in a form that only `keep_scaled` reads.
+    /// For |x| ≥ 2^21 or NaN some value.
+    unsafe fn split(x: Self::F) -> (Self::F, Self::F);
+    /// value·2^n, with n as `split` gave it, where the mask holds; +0 elsewhere. The product must be a normal number
+    /// where the mask holds.
+    unsafe fn keep_scaled(mask: Self::M, value: Self::F, n: Self::F) -> Self::F;
 
-    /// 2^x for −126 ≤ x ≤ 127 to 2e-7 relative, and 2^0 = 1 exactly. Any other x, NaN included, gives some value.
+    /// 2^x to 2e-7 relative, and 2^0 = 1 exactly, as two factors for `keep_scaled`. −126 ≤ x ≤ 126 where it is kept.
     #[inline(always)]
-    unsafe fn exp2(x: Self::F) -> Self::F {
-        // Adding 1.5·2^23 leaves the nearest integer in the low bits of the mantissa.
-        const ROUND: f32 = 12_582_912.0;
-        // Minimax polynomial of 2^f on [-1/2, 1/2], constant term 1.
-        const C: [f32; 6] = [1.0, 0.693_146_97, 0.240_221_2, 0.055_507_133, 0.009_675_542, 0.001_327_647_2];
+    unsafe fn exp2(x: Self::F) -> (Self::F, Self::F) {
         // SAFETY: the caller vouches for the instruction set.
         unsafe {
-            let round = Self::splat(ROUND);
-            let shifted = Self::add(x, round);
-            let f = Self::sub(x, Self::sub(shifted, round));
-            let mut y = Self::splat(C[5]);
-            y = Self::fma(y, f, Self::splat(C[4]));
-            y = Self::fma(y, f, Self::splat(C[3]));
-            y = Self::fma(y, f, Self::splat(C[2]));
-            y = Self::fma(y, f, Self::splat(C[1]));
-            y = Self::fma(y, f, Self::splat(C[0]));
-            Self::shift_exponent(y, shifted)
+            let (f, n) = Self::split(x);
+            let mut y = Self::splat(EXP2[0]);
+            y = Self::fma(y, f, Self::splat(EXP2[1]));
+            y = Self::fma(y, f, Self::splat(EXP2[2]));
+            y = Self::fma(y, f, Self::splat(EXP2[3]));
+            y = Self::fma(y, f, Self::splat(EXP2[4]));
+            y = Self::fma(y, f, Self::splat(EXP2[5]));
+            (y, n)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 2^x of one value in every lane.
+    ///
+    /// # Safety
+    /// The instruction set is available.
+    unsafe fn exp2_of<S: Simd>(x: f32) -> f32 {
+        let mut out = [0.0; MAX_LANES];
+        // SAFETY: the caller vouches for the instruction set; `out` holds the widest vector.
+        unsafe {
+            let (y, n) = S::exp2(S::splat(x));
+            let all = S::le(y, y);
+            S::store(out.as_mut_ptr(), S::keep_scaled(all, y, n));
+        }
+        out[0]
+    }
+
+    #[test]
+    fn exp2_is_accurate_to_2e_7_and_alike_for_every_instruction_set() {
+        for i in 0..=252_000u32 {
+            let x = -(i as f32) / 2000.0;
+            // SAFETY: the portable form runs everywhere, the others are called after asking for their features.
+            let y = unsafe { exp2_of::<Portable>(x) };
+            let truth = f64::from(x).exp2();
+            assert!((f64::from(y) / truth - 1.0).abs() < 2e-7, "2^{x} = {y}, not {truth}");
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: as above.
+            unsafe {
+                if crate::Level::Avx2.is_available() {
+                    assert_eq!(exp2_of::<Avx2>(x).to_bits(), y.to_bits(), "2^{x}");
+                }
+                if crate::Level::Avx512.is_available() {
+                    assert_eq!(exp2_of::<Avx512>(x).to_bits(), y.to_bits(), "2^{x}");
+                }
+            }
+        }
+        // SAFETY: as above.
+        assert_eq!(unsafe { exp2_of::<Portable>(0.0) }, 1.0);
     }
 }

@@ -1,6 +1,6 @@
 //! The operations over an array of eight values, in plain Rust.
 
-use super::Simd;
+use super::{ROUND, Simd};
 
 /// Eight lanes that the compiler maps to whatever the target has.
 #[derive(Debug)]
@@ -9,10 +9,10 @@ pub(crate) struct Portable;
 const LANES: usize = 8;
 
 macro_rules! lanewise {
-    ($($name:ident($($arg:ident),+) = $value:expr;)+) => {$(
+    ($($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
         #[inline(always)]
-        unsafe fn $name($($arg: [f32; LANES]),+) -> [f32; LANES] {
-            let mut out = [0.0; LANES];
+        unsafe fn $name($($arg: [$of; LANES]),+) -> [$result; LANES] {
+            let mut out = [<$result>::default(); LANES];
             for i in 0..LANES {
                 $(let $arg = $arg[i];)+
                 out[i] = $value;
@@ -28,12 +28,31 @@ impl Simd for Portable {
     type M = [bool; LANES];
 
     lanewise! {
-        add(a, b) = a + b;
-        sub(a, b) = a - b;
-        mul(a, b) = a * b;
-        fma(a, b, c) = a.mul_add(b, c);
-        abs(a) = a.abs();
-        shift_exponent(value, exponent) = f32::from_bits(value.to_bits().wrapping_add(exponent.to_bits() << 23));
+        add(a: f32, b: f32) -> f32 = a + b;
+        sub(a: f32, b: f32) -> f32 = a - b;
+        mul(a: f32, b: f32) -> f32 = a * b;
+        fma(a: f32, b: f32, c: f32) -> f32 = a.mul_add(b, c);
+        abs(a: f32) -> f32 = a.abs();
+        le(a: f32, b: f32) -> bool = a <= b;
+        and_le(mask: bool, a: f32, b: f32) -> bool = mask & (a <= b);
+        keep(mask: bool, value: f32) -> f32 = if mask { value } else { 0.0 };
+        keep_scaled(mask: bool, value: f32, n: f32) -> f32 =
+            if mask { f32::from_bits(value.to_bits().wrapping_add(n.to_bits() << 23)) } else { 0.0 };
+    }
+
+    #[inline(always)]
+    unsafe fn split(x: Self::F) -> (Self::F, Self::F) {
+        let (mut f, mut n) = (x, x);
+        for i in 0..LANES {
+            n[i] = x[i] + ROUND;
+            f[i] = x[i] - (n[i] - ROUND);
+        }
+        (f, n)
+    }
+
+    #[inline(always)]
+    unsafe fn splat(value: f32) -> Self::F {
+        [value; LANES]
     }
 
     #[inline(always)]
@@ -43,40 +62,14 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
+    unsafe fn load_beside(from: *const f32, i: usize) -> Self::F {
+        // SAFETY: the caller vouches for 2·LANES readable values.
+        unsafe { Self::load(from.add(i)) }
+    }
+
+    #[inline(always)]
     unsafe fn store(to: *mut f32, value: Self::F) {
         // SAFETY: as in `load`, writable.
         unsafe { to.cast::<Self::F>().write(value) }
-    }
-
-    #[inline(always)]
-    unsafe fn splat(value: f32) -> Self::F {
-        [value; LANES]
-    }
-
-    #[inline(always)]
-    unsafe fn le(a: Self::F, b: Self::F) -> Self::M {
-        let mut out = [false; LANES];
-        for i in 0..LANES {
-            out[i] = a[i] <= b[i];
-        }
-        out
-    }
-
-    #[inline(always)]
-    unsafe fn and_le(mask: Self::M, a: Self::F, b: Self::F) -> Self::M {
-        let mut out = [false; LANES];
-        for i in 0..LANES {
-            out[i] = mask[i] & (a[i] <= b[i]);
-        }
-        out
-    }
-
-    #[inline(always)]
-    unsafe fn keep(mask: Self::M, value: Self::F) -> Self::F {
-        let mut out = [0.0; LANES];
-        for i in 0..LANES {
-            out[i] = if mask[i] { value[i] } else { 0.0 };
-        }
-        out
     }
 }
