@@ -175,7 +175,7 @@ pub struct Compare {
 /// `noisefloor report`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  noisefloor report noisefloor-results/quick\n  \
-    noisefloor report reports/vfi-fig09 --recompute")]
+    noisefloor report noisefloor-results/quick --recompute")]
 pub struct Report {
     /// Folder of a study that was run
     pub dir: PathBuf,

@@ -1,0 +1,143 @@
+//! The command as a person uses it: one verb after the other on a small frame, and every way to be wrong.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn noisefloor(folder: &Path, args: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_noisefloor")).args(args).current_dir(folder).output().unwrap()
+}
+
+fn done(folder: &Path, args: &[&str]) -> String {
+    let output = noisefloor(folder, args);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{args:?}: {errors}");
+    assert!(errors.is_empty(), "piped, so nothing but results: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, args: &[&str]) -> String {
+    let output = noisefloor(folder, args);
+    assert!(!output.status.success(), "{args:?} went through");
+    assert!(output.stdout.is_empty(), "{args:?} printed a result");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn json(folder: &Path, args: &[&str]) -> Value {
+    serde_json::from_str(&done(folder, args)).unwrap()
+}
+
+#[test]
+fn a_frame_is_rendered_denoised_and_compared() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["render", "cornell", "--spp", "8", "--seed", "3", "--size", "32x24", "-o", "frame.exr"]);
+    done(at, &["render", "cornell", "--spp", "256", "--parts", "8", "--size", "32x24", "-o", "reference.exr"]);
+    let told = json(
+        at,
+        &["denoise", "frame.exr", "--method", "virtual-flash", "-o", "out.exr", "--json", "--diagnostics"],
+    );
+    assert!(told["seconds"]["denoise"].as_f64().unwrap() > 0.0);
+    assert!(told["seconds"]["stages"]["step 1"].is_f64(), "{told}");
+    let diagnostics = told["diagnostics"].as_array().unwrap();
+    assert!(!diagnostics.is_empty());
+    for diagnostic in diagnostics {
+        assert!(at.join(diagnostic["path"].as_str().unwrap()).is_file(), "{diagnostic}");
+    }
+
+    let noisy = json(at, &["compare", "frame.exr", "reference.exr", "--json"]);
+    let denoised = json(at, &["compare", "out.exr", "reference.exr", "--json"]);
+    let relmse = |v: &Value| v["metrics"]["relmse"].as_f64().unwrap();
+    assert!(relmse(&denoised) < 0.5 * relmse(&noisy), "{} {}", relmse(&denoised), relmse(&noisy));
+    assert!(denoised["reference_standard_error"]["mse"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn equal_seeds_give_equal_files_for_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let image = |threads: &str, name: &str| {
+        let args = ["render", "toaster", "--spp", "4", "--size", "24x18", "--threads", threads, "-o", name];
+        done(at, &args);
+        noisefloor_frame_bits(&at.join(name))
+    };
+    assert_eq!(image("1", "one.exr"), image("3", "three.exr"));
+}
+
+fn noisefloor_frame_bits(path: &Path) -> Vec<u32> {
+    let frame = noisefloor::io::read_frame(path, &noisefloor::io::ReadOptions::default()).unwrap();
+    let mut images = vec![frame.color.mean];
+    images.extend(frame.features.into_values().map(|f| f.mean));
+    images.iter().flat_map(|image| image.data().iter().map(|v| v.to_bits())).collect()
+}
+
+#[test]
+fn lists_are_arrays_of_objects_with_an_id() {
+    let folder = tempfile::tempdir().unwrap();
+    for (verb, expected) in [("methods", "virtual-flash"), ("scenes", "outdoor")] {
+        let list = json(folder.path(), &[verb, "--json"]);
+        let ids: Vec<&str> = list.as_array().unwrap().iter().map(|o| o["id"].as_str().unwrap()).collect();
+        assert!(ids.contains(&expected), "{ids:?}");
+        assert!(done(folder.path(), &[verb]).contains(expected));
+    }
+}
+
+#[test]
+fn misspelt_names_are_answered_with_the_nearest_and_the_range() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    done(at, &["render", "cornell", "--spp", "2", "--size", "8x8", "-o", "frame.exr", "--record", "none"]);
+    let denoise = |more: &[&str]| {
+        let mut args = vec!["denoise", "frame.exr", "-o", "out.exr", "--method"];
+        args.extend(more);
+        refused(at, &args)
+    };
+    assert!(denoise(&["virtual-flsh"]).contains("virtual-flash"));
+    let told = denoise(&["virtual-flash", "--set", "kapa=2"]);
+    assert!(told.contains("kapa") && told.contains("kappa ("), "{told}");
+    let told = denoise(&["virtual-flash", "--set", "steps=7"]);
+    assert!(told.contains("steps") && told.contains('7'), "{told}");
+    // The frame has no flash image: refused before any work, naming what is missing.
+    let told = denoise(&["virtual-flash"]);
+    assert!(told.contains("virtual flash image"), "{told}");
+    assert!(!at.join("out.exr").exists());
+    assert!(refused(at, &["run", "quik"]).contains("quick"));
+    assert!(refused(at, &["render", "cornel", "--spp", "1", "-o", "x.exr"]).contains("cornell"));
+    let told = refused(at, &["render", "cornell", "--spp", "1", "--record", "fog", "-o", "x.exr"]);
+    assert!(told.contains("fog") && told.contains("albedo"), "{told}");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_is_an_error_that_names_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let args = ["render", "cornell", "--spp", "1", "--size", "8x8", "-o", "no/such/folder/frame.exr"];
+    assert!(refused(folder.path(), &args).contains("frame.exr"));
+    std::fs::write(folder.path().join("file"), "not a folder").unwrap();
+    let told = refused(folder.path(), &["run", "quick", "--quiet", "--out", "file/results"]);
+    assert!(told.contains("file"), "{told}");
+}
+
+#[test]
+fn a_report_can_be_made_again_from_what_was_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(
+        at.join("study.toml"),
+        "name = \"tiny\"\nspp = [4, 8]\nreplicates = 2\nwidth = 16\nheight = 12\ntiming = { warmup = 0, runs = 1 }\n\
+         [[scene]]\nid = \"ramp\"\nsynthetic = { image = \"ramps\", law = \"gaussian\", width = 16, height = 12 }\n\
+         [[method]]\nid = \"mc\"\n[[method]]\nid = \"virtual-flash\"\n",
+    )
+    .unwrap();
+    done(at, &["run", "study.toml", "--quiet", "--out", "results", "--cache", "cache"]);
+    let page = at.join("results/report/index.html");
+    let summary = |name: &str| -> Value {
+        serde_json::from_slice(&std::fs::read(at.join("results").join(name)).unwrap()).unwrap()
+    };
+    let first = summary("summary.json");
+    std::fs::remove_dir_all(at.join("results/report")).unwrap();
+    std::fs::remove_dir_all(at.join("cache")).unwrap();
+    done(at, &["report", "results", "--recompute"]);
+    assert!(page.is_file());
+    assert_eq!(first["cells"], summary("summary.json")["cells"], "kept images give the recorded metrics again");
+}
