@@ -51,7 +51,8 @@ impl Plan {
             "params": row.method.params,
             "label": row.label,
             "coverage": study.coverage,
-            "diagnostics": wants_diagnostics(study, frame).then_some(study.probe),
+            "timing": study.timing,
+            "diagnostics": wants_diagnostics(study, frame).then(|| json!([study.probe])),
             "within": scene.single(),
         }))
     }

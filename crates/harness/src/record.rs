@@ -86,7 +86,8 @@ pub struct Record {
     pub figures: BTreeMap<String, f64>,
     /// Times.
     pub seconds: Seconds,
-    /// Peak resident memory of the process after the cell, bytes, where the platform tells.
+    /// Peak resident memory of the process during the cell, bytes, where the platform tells; the frame and its truth are in it. Where the
+    /// platform cannot reset the peak, it is that of the process so far.
     pub peak_memory_bytes: Option<u64>,
     /// Denoised image, relative to the study's folder.
     pub image: Option<String>,

@@ -5,7 +5,7 @@ mod denoise;
 mod prepare;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use noisefloor_denoiser::Registry;
 
@@ -19,7 +19,7 @@ use crate::plan::{Plan, Row};
 use crate::record::{Outcome, Record};
 use crate::source::{FrameSpec, Scene};
 use crate::store::{Layout, Lock, Records, read_json, write_json};
-use crate::study::Study;
+use crate::study::{SceneSource, Study};
 use crate::summary::{MethodSummary, Summary};
 
 /// Resampled images of the block bootstrap.
@@ -131,7 +131,14 @@ fn claim(layout: &Layout, study: &Study) -> Result<(), HarnessError> {
             });
         }
     }
-    write_json(&path, study)
+    // Where a folder of frames stood on this machine says nothing elsewhere, and nothing here reads it again.
+    let mut kept = study.clone();
+    for scene in &mut kept.scenes {
+        if let SceneSource::Folder(folder) = &mut scene.source {
+            *folder = folder.file_name().map(PathBuf::from).unwrap_or_default();
+        }
+    }
+    write_json(&path, &kept)
 }
 
 /// Keys of the finished cells. Records that the plan does not know any more, or whose image is gone, are dropped.

@@ -3,6 +3,7 @@
 mod records;
 
 use std::fs::{File, TryLockError};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use serde::{Serialize, de::DeserializeOwned};
@@ -102,18 +103,7 @@ impl Lock {
 
 /// Writes a file so that it appears whole or not at all, and is on disk when this returns.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), HarnessError> {
-    use std::io::Write as _;
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file =
-        tempfile::NamedTempFile::new_in(folder).map_err(HarnessError::io("write a file in", folder))?;
-    file.write_all(bytes).map_err(HarnessError::io("write", path))?;
-    file.as_file().sync_data().map_err(HarnessError::io("write", path))?;
-    file.persist(path).map_err(|e| HarnessError::Io {
-        action: "write",
-        path: path.into(),
-        source: e.error,
-    })?;
-    Ok(())
+    Ok(noisefloor_io::write_atomically(path, |file| file.write_all(bytes))?)
 }
 
 /// Writes pretty JSON whole.

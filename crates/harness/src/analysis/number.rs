@@ -56,7 +56,12 @@ pub(super) fn metric(
     // Only errors that the reference's noise was taken out of can fall to where the reference shows nothing.
     let corrected = info.lower_is_better && info.reference_noise_removed;
     let below = corrected.then(|| interval.below(floor.unwrap_or(0.0))).flatten();
-    Some(told(interval, source, below))
+    let mut out = told(interval, source, below);
+    if info.lower_is_better {
+        // An error is not negative, whatever its corrected estimate.
+        out.low = out.low.map(|low| low.max(0.0));
+    }
+    Some(out)
 }
 
 /// Rate over replicates, from the counts of each: hits and trials. With one replicate, its interval within the image.

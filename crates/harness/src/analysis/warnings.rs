@@ -72,6 +72,13 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
             crate::measure::void(scene.sampling).unwrap_or("")
         ));
     }
+    let counted = summary.coverage.iter().any(|row| row.scene == *id);
+    if scene.sampling == Sampling::Independent && top >= 2 && index.baseline().is_some() && !counted {
+        out.push(format!(
+            "{id}: coverage and bounds are left out: the frames state no variance, or sample counts that differ between pixels and so \
+             depend on the data"
+        ));
+    }
     if scene.replicates.values().all(|&n| n == 1) {
         out.push(format!(
             "{id}: one replicate per level; intervals are from blocks within the image and say nothing about other random seeds, \
