@@ -1,0 +1,71 @@
+//! The same bits for every instruction set, tile size and number of threads.
+
+use super::super::tiled;
+use super::{Case, RULES, Rule, levels};
+use crate::Level;
+
+fn bits(planes: &[Vec<f32>; 3]) -> Vec<u32> {
+    planes.iter().flatten().map(|v| v.to_bits()).collect()
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    for rule in RULES {
+        for (guided, patch_radius) in [(true, 0), (true, 1), (true, 2), (true, 3), (false, 2)] {
+            let mut case = Case::random(83, 21, 4, patch_radius, rule);
+            if !guided {
+                case.guide = None;
+            }
+            let portable = bits(&case.filter_at(Level::Portable));
+            for level in levels() {
+                assert!(bits(&case.filter_at(level)) == portable, "{level}, {rule:?}, patch {patch_radius}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits_where_weights_vanish() {
+    // Range factors so large that exponents cover all of 0 to -126 and beyond.
+    let mut case = Case::random(83, 21, 4, 1, Rule::Off);
+    let (_, range) = case.guide.as_mut().unwrap();
+    range.iter_mut().for_each(|v| *v *= 100.0);
+    let portable = bits(&case.filter_at(Level::Portable));
+    for level in levels() {
+        assert!(bits(&case.filter_at(level)) == portable, "{level}");
+    }
+}
+
+#[test]
+fn any_tile_size_gives_the_same_bits() {
+    let case = Case::random(101, 37, 9, 2, Rule::Joint);
+    for level in levels() {
+        let usual = bits(&case.filter_at(level));
+        for tile in [(16, 1), (16, 40), (32, 5), (64, 16), (112, 64)] {
+            let mut out = [(); 3].map(|()| vec![0.0; 101 * 37]);
+            let [r, g, b] = &mut out;
+            tiled::filter(&case.params, &case.inputs(), level, tile, [r, g, b]);
+            assert!(bits(&out) == usual, "{level}, tile {tile:?}");
+        }
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bits() {
+    let case = Case::random(150, 70, 3, 2, Rule::PerChannel);
+    let run = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        bits(&pool.install(|| case.filter()))
+    };
+    let one = run(1);
+    for threads in [2, 3, 7] {
+        assert!(run(threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn the_best_level_is_available_and_used_by_default() {
+    let case = Case::random(20, 20, 2, 1, Rule::Joint);
+    assert!(levels().any(|level| level == Level::best()));
+    assert_eq!(bits(&case.filter()), bits(&case.filter_at(Level::best())));
+}

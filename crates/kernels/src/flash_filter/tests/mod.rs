@@ -1,0 +1,124 @@
+//! Tests of the flash filter: made-up images, and what must hold for any image.
+
+mod bits;
+mod hard_cases;
+mod oracle;
+mod properties;
+mod sets;
+
+use super::{FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_into};
+use crate::Level;
+
+/// Repeatable random numbers (splitmix64).
+pub(super) struct Random(pub u64);
+
+impl Random {
+    /// Uniform in [0, 1), 24 bits.
+    pub fn uniform(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    /// Mean 0, variance 1, near enough to normal.
+    pub fn normal(&mut self) -> f32 {
+        (0..12).map(|_| self.uniform()).sum::<f32>() - 6.0
+    }
+
+    pub fn planes(&mut self, pixels: usize, mut value: impl FnMut(&mut Self) -> f32) -> [Vec<f32>; 3] {
+        [(); 3].map(|()| (0..pixels).map(|_| value(self)).collect())
+    }
+}
+
+/// How a [`Case`] decides who is homogeneous with whom.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Rule {
+    Joint,
+    PerChannel,
+    Luminance,
+    Off,
+}
+
+pub(super) const RULES: [Rule; 4] = [Rule::Joint, Rule::PerChannel, Rule::Luminance, Rule::Off];
+
+/// Parameters and planes that live together.
+#[derive(Clone, Debug)]
+pub(super) struct Case {
+    pub params: FlashParams,
+    pub rule: Rule,
+    pub source: [Vec<f32>; 3],
+    pub half_width: [Vec<f32>; 3],
+    pub guide: Option<([Vec<f32>; 3], Vec<f32>)>,
+}
+
+impl Case {
+    /// Random planes: source and guide in [0, 1), half-widths in [0, 0.6), range factors in [0, 30), one pixel in
+    /// eight without any tolerance.
+    pub fn random(
+        width: usize,
+        height: usize,
+        window_radius: usize,
+        patch_radius: usize,
+        rule: Rule,
+    ) -> Self {
+        let mut random =
+            Random((width * 1000 + height) as u64 * 100 + (window_radius * 10 + patch_radius) as u64);
+        let n = width * height;
+        Self {
+            params: FlashParams {
+                width,
+                height,
+                window_radius,
+                spatial_sigma: (2 * window_radius + 1) as f32 / 3.0,
+                patch: PatchWeights::gaussian(patch_radius, 1.25).unwrap(),
+            },
+            rule,
+            source: random.planes(n, Random::uniform),
+            half_width: random
+                .planes(n, |random| if random.uniform() < 0.125 { 0.0 } else { 0.6 * random.uniform() }),
+            guide: Some((
+                random.planes(n, Random::uniform),
+                (0..n).map(|_| 30.0 * random.uniform()).collect(),
+            )),
+        }
+    }
+
+    pub fn inputs(&self) -> FlashInputs<'_> {
+        let half_width = self.half_width.each_ref().map(Vec::as_slice);
+        FlashInputs {
+            source: self.source.each_ref().map(Vec::as_slice),
+            membership: match self.rule {
+                Rule::Joint => Membership::Joint(half_width),
+                Rule::PerChannel => Membership::PerChannel(half_width),
+                Rule::Luminance => Membership::Luminance(half_width[0]),
+                Rule::Off => Membership::Off,
+            },
+            guide: self.guide.as_ref().map(|(planes, range)| Guide {
+                planes: planes.each_ref().map(Vec::as_slice),
+                inv_two_sigma_r2: range,
+            }),
+        }
+    }
+
+    pub fn filter_at(&self, level: Level) -> [Vec<f32>; 3] {
+        let mut out = [(); 3].map(|()| vec![f32::NAN; self.params.width * self.params.height]);
+        let [r, g, b] = &mut out;
+        filter_into(&self.params, &self.inputs(), level, [r, g, b]).unwrap();
+        out
+    }
+
+    pub fn filter(&self) -> [Vec<f32>; 3] {
+        super::filter(&self.params, &self.inputs()).unwrap()
+    }
+
+    pub fn oracle(&self) -> [Vec<f64>; 3] {
+        super::naive::filter_f64(&self.params, &self.inputs()).unwrap()
+    }
+}
+
+/// The instruction sets of this machine.
+pub(super) fn levels() -> impl Iterator<Item = Level> {
+    Level::ALL.into_iter().filter(|level| level.is_available())
+}
