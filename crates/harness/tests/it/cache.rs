@@ -105,6 +105,19 @@ fn a_damaged_cache_file_is_noticed_and_made_again() {
 }
 
 #[test]
+fn a_reference_that_is_stopped_midway_loses_at_most_one_part() {
+    let place = Place::new();
+    let part = PIXELS * REFERENCE / 8;
+    let stopping = Watch { stop_after_samples: Some(3 * part + part / 2), ..Watch::default() };
+    assert!(place.run(&rendered(), &stopping).unwrap_err().is_cancelled());
+    let kept = files(&place, "exr").len();
+    assert!(kept >= 3, "{kept} parts are kept");
+    let watch = Watch::default();
+    place.run(&rendered(), &watch).unwrap();
+    assert_eq!(watch.samples(), PIXELS * 2 * SPP + (8 - kept) * part);
+}
+
+#[test]
 fn the_size_can_be_chosen_when_running() {
     let place = Place::new();
     let summary = noisefloor_harness::run(&noisefloor_harness::StudyRun {

@@ -147,6 +147,7 @@ pub struct Watch {
     pub planned: Mutex<Workload>,
     pub warnings: Mutex<Vec<String>>,
     pub stop_after: Option<usize>,
+    pub stop_after_samples: Option<usize>,
 }
 
 impl Watch {
@@ -182,6 +183,7 @@ impl Observer for Watch {
     }
     fn cancelled(&self) -> bool {
         self.stop_after.is_some_and(|stop| self.cells() >= stop)
+            || self.stop_after_samples.is_some_and(|stop| self.samples() >= stop)
     }
 }
 
