@@ -46,6 +46,20 @@ pub(super) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
         .collect()
 }
 
+/// The ratio of the baseline to itself.
+fn itself(records: &[&Record]) -> Interval {
+    Interval {
+        value: 1.0,
+        standard_error: Some(0.0),
+        low: Some(1.0),
+        high: Some(1.0),
+        confidence: LEVEL.confidence(),
+        n: records.len() as u32,
+        source: Source::Replicates,
+        below: None,
+    }
+}
+
 struct Cell<'a> {
     index: &'a Index<'a>,
     scene: &'a SceneContext,
@@ -104,6 +118,10 @@ impl Cell<'_> {
         let Some(baseline) = self.index.baseline() else { return BTreeMap::new() };
         let of_baseline = self.index.records(self.scene, self.spp, &baseline.summary.label);
         let errors = self.index.study.metrics.iter().filter(|id| crate::metric::lower_is_better(id));
+        if self.row.summary.label == baseline.summary.label {
+            // Certain, whatever the noise: the reference's share would not cancel in the general formula.
+            return errors.map(|id| (id.clone(), itself(self.records))).collect();
+        }
         errors.filter_map(|id| Some((id.clone(), self.ratio(of_baseline, class, id)?))).collect()
     }
 
