@@ -28,4 +28,4 @@ pub use prepare::Prepared;
 pub use progress::{Progress, Silent};
 pub use record::{Keep, Quantity, Record, available};
 pub use render::{render, render_reference};
-pub use request::{DEEPEST, LONGEST_SEQUENCE, RenderRequest};
+pub use request::{DEEPEST, LONGEST_SEQUENCE, REVISION, RenderRequest};

@@ -38,7 +38,7 @@ pub fn concentric_disc(u: f32, v: f32) -> (f32, f32) {
 /// Sine and cosine of 2πu for u in [0, 1).
 #[inline]
 pub fn turn(u: f32) -> (f32, f32) {
-    let quarter = (4.0 * u).round();
+    let quarter = (4.0 * u + 0.5) as i32 as f32; // rounds, since u is not negative
     let (s, c) = sin_cos_octant(std::f32::consts::FRAC_PI_2 * (4.0 * u - quarter));
     match quarter as i32 & 3 {
         0 => (s, c),

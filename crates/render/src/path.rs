@@ -13,6 +13,9 @@ use crate::surface::{Geometry, Interaction};
 /// Edges before Russian roulette starts.
 const SURE_EDGES: u32 = 3;
 
+/// Least chance to survive it, so that no survivor becomes absurdly bright.
+const LEAST_CHANCE: f32 = 1e-3;
+
 /// What one path brings back. Fields that were not asked for stay zero.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
@@ -86,10 +89,19 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             break;
         };
         let geometry = &scene.geometry[hit.primitive as usize];
-        let at = geometry.interact(&ray, &hit, &scene.attributes);
         let surface = &scene.surfaces[geometry.material as usize];
+        let last = edge >= depth;
+        let shaded = !last || FEATURES && edge == 1 || FLASH && reuse == Reuse::Following;
+        // At the end of the longest path only emission matters.
+        if !(shaded || surface.emits) {
+            break;
+        }
+        let at = geometry.interact(&ray, &hit, &scene.attributes);
         if surface.emits {
             out.color += throughput * emission(scene, geometry, &at, &ray, hit.t, previous);
+        }
+        if !shaded {
+            break;
         }
         let event = surface.scatter.at(at.uv);
         if FEATURES && edge == 1 {
@@ -107,11 +119,10 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             reuse = Reuse::Done;
         }
         let to_viewer = -ray.direction;
-        let light_edge = edge < depth;
         let lobe = match event {
             Event::Lobe(lobe) => lobe,
             Event::Specular(specular) => {
-                if !light_edge {
+                if last {
                     break;
                 }
                 let u = sampler.group(2 * edge);
@@ -133,7 +144,7 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             let to_eye = to_eye.normalize_or(at.normal);
             out.eye_light += throughput * lobe.eval(&at, to_viewer, to_eye).0 * (1.0 / squared);
         }
-        if !light_edge {
+        if last {
             break;
         }
         let u = sampler.group(2 * edge - 1);
@@ -204,15 +215,17 @@ fn reach(light: &LightSample) -> f32 {
 /// carry nothing.
 #[inline(always)]
 fn survives(throughput: &mut Vec3A, squared_index: f32, edge: u32, u: f32) -> bool {
-    let brightest = throughput.max_element() / squared_index; // products of positive finite ratios
-    if edge < SURE_EDGES {
-        return brightest > 0.0;
+    let brightest = throughput.max_element() / squared_index;
+    // Not `brightest <= 0`: false for the NaN of two underflows, too.
+    let carries = brightest > 0.0;
+    if edge < SURE_EDGES || !carries {
+        return carries;
     }
-    let chance = brightest.min(1.0);
+    let chance = brightest.clamp(LEAST_CHANCE, 1.0);
     if u >= chance {
         return false;
     }
-    *throughput *= 1.0 / chance; // chance > u ≥ 0
+    *throughput *= 1.0 / chance;
     true
 }
 

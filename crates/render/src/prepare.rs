@@ -183,7 +183,7 @@ impl<'a> Parts<'a> {
                 continue;
             }
             let attributes = if keep {
-                let normal = |i: usize| mesh.normals.get(i).map_or(Vec3A::ZERO, |&n| n.into());
+                let normal = |i: usize| mesh.normals.get(i).copied().unwrap_or(Vec3::ZERO);
                 let uv = |i: usize| mesh.uvs.get(i).copied().unwrap_or(Vec2::ZERO);
                 self.attributes.push(Attributes { normals: corners.map(normal), uvs: corners.map(uv) });
                 (self.attributes.len() - 1) as u32

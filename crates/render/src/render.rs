@@ -8,8 +8,8 @@ use crate::camera::Eye;
 use crate::film::{Extent, Planes, develop};
 use crate::path::trace;
 use crate::plan::{COLOR, Plan, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
-use crate::request::LONGEST_SEQUENCE;
-use crate::sampler::{Independent, OwenSobol, Sampler, pixel_key};
+use crate::request::{LONGEST_SEQUENCE, REVISION};
+use crate::sampler::{Independent, OwenSobol, Sampler, Sequence, SobolTables, pixel_key};
 use crate::tally::Tally;
 use crate::{Keep, Progress, RenderError, RenderRequest};
 
@@ -105,7 +105,7 @@ fn provenance(request: &RenderRequest<'_>, start: Instant, non_finite: u64) -> P
     }
     Provenance {
         scene: Some(request.scene.id().into()),
-        renderer: Some(concat!("noisefloor ", env!("CARGO_PKG_VERSION")).into()),
+        renderer: Some(format!("noisefloor {} (revision {REVISION})", env!("CARGO_PKG_VERSION"))),
         integrator: Some(format!("path depth={}", request.depth)),
         sampler: None,
         seed: Some(request.seed),
@@ -123,6 +123,7 @@ struct Shot<'a> {
     plan: &'a Plan,
     eye: Eye,
     parts: Option<u32>,
+    sobol: SobolTables,
     non_finite: &'a AtomicU64,
 }
 
@@ -135,7 +136,7 @@ struct Scratch<const C: usize> {
 impl<'a> Shot<'a> {
     fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
         let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
-        Self { request, plan, eye, parts: None, non_finite }
+        Self { request, plan, eye, parts: None, sobol: SobolTables::new(), non_finite }
     }
 
     /// Picks the code for what is recorded, so that what is not recorded costs nothing.
@@ -168,7 +169,8 @@ impl<'a> Shot<'a> {
                     self.plan.write(&mut scratch.tally, material, out);
                 }
                 (None, Sampling::LowDiscrepancy) => {
-                    let sampler = |k: u32| OwenSobol::new(key, k & 1, k >> 1);
+                    let halves = [0, 1].map(|half| Sequence::new(key, half));
+                    let sampler = |k: u32| OwenSobol::new(&self.sobol, &halves[(k & 1) as usize], k >> 1);
                     let material = self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, self.range(), sampler);
                     self.plan.write(&mut scratch.tally, material, out);
                 }
@@ -224,8 +226,8 @@ impl<'a> Shot<'a> {
         let mut all = Tally::new();
         let mut material = -1;
         for (part, color) in colors.chunks_exact_mut(3).enumerate() {
-            let sequence = REFERENCE_SEQUENCES + part as u32;
-            let sampler = |k| OwenSobol::new(key, sequence, k);
+            let sequence = Sequence::new(key, REFERENCE_SEQUENCES + part as u32);
+            let sampler = |k| OwenSobol::new(&self.sobol, &sequence, k);
             let first =
                 self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, 0..self.request.spp / parts, sampler);
             if part == 0 {

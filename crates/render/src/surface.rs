@@ -1,6 +1,6 @@
 //! What a ray meets: points, normals and materials of primitives.
 
-use glam::{Vec2, Vec3A};
+use glam::{Vec2, Vec3, Vec3A};
 use noisefloor_scenes::{Color, Texture};
 
 use crate::bsdf::{Event, Lobe, Specular};
@@ -91,38 +91,35 @@ pub struct Surface {
     pub emits: bool,
 }
 
-/// Vertex normals and texture coordinates of a triangle.
+/// Vertex normals and texture coordinates of a triangle: one cache line.
 #[derive(Debug, Clone, Copy)]
+#[repr(align(64))]
 pub struct Attributes {
     /// Unit vertex normals; zero to shade flat.
-    pub normals: [Vec3A; 3],
+    pub normals: [Vec3; 3],
     /// Texture coordinates.
     pub uvs: [Vec2; 3],
 }
 
-/// Shading data of a primitive.
+/// Shading data of a primitive: half a cache line.
 #[derive(Debug, Clone, Copy)]
 pub struct Geometry {
-    /// First vertex, or centre.
-    pub origin: Vec3A,
-    /// First edge, or (radius, 0, 0).
-    pub edge1: Vec3A,
-    /// Second edge.
-    pub edge2: Vec3A,
-    /// Unit geometric normal of a triangle.
-    pub normal: Vec3A,
+    /// Unit geometric normal of a triangle, or centre of a sphere.
+    origin: Vec3,
+    /// Signed distance of a triangle's plane from the world's origin, or radius of a sphere.
+    offset: f32,
     /// Distance that clears the rounding error of a hit on this primitive.
-    pub clearance: f32,
+    clearance: f32,
     /// Material.
     pub material: u32,
     /// Light, or [`NONE`].
     pub light: u32,
     /// Attributes, [`NONE`], or [`SPHERE`].
-    pub attributes: u32,
+    attributes: u32,
 }
 
 /// Marks a sphere in [`Geometry::attributes`].
-pub const SPHERE: u32 = u32::MAX - 1;
+const SPHERE: u32 = u32::MAX - 1;
 
 /// A hit, seen from the side that the ray came from.
 #[derive(Debug, Clone, Copy)]
@@ -156,12 +153,11 @@ impl Geometry {
     /// A triangle that is not degenerate.
     pub fn triangle(v: [Vec3A; 3], material: u32, attributes: u32) -> Self {
         let (edge1, edge2) = (v[1] - v[0], v[2] - v[0]);
+        let normal = edge1.cross(edge2).normalize();
         let largest = |a: Vec3A| a.abs().max_element();
         Self {
-            origin: v[0],
-            edge1,
-            edge2,
-            normal: edge1.cross(edge2).normalize(),
+            origin: normal.into(),
+            offset: normal.dot(v[0]),
             clearance: CLEARANCE * (largest(v[0]) + largest(edge1) + largest(edge2)),
             material,
             light: NONE,
@@ -172,10 +168,8 @@ impl Geometry {
     /// A sphere of positive radius.
     pub fn sphere(center: Vec3A, radius: f32, material: u32) -> Self {
         Self {
-            origin: center,
-            edge1: Vec3A::new(radius, 0.0, 0.0),
-            edge2: Vec3A::ZERO,
-            normal: Vec3A::ZERO,
+            origin: center.into(),
+            offset: radius,
             clearance: CLEARANCE * (center.abs().max_element() + radius),
             material,
             light: NONE,
@@ -189,10 +183,12 @@ impl Geometry {
         if self.attributes == SPHERE {
             return self.on_sphere(ray, hit);
         }
-        // From the barycentric coordinates: errors stay in the triangle's plane.
-        let point = self.origin + self.edge1 * hit.u + self.edge2 * hit.v;
-        let front = ray.direction.dot(self.normal) < 0.0;
-        let geometric = if front { self.normal } else { -self.normal };
+        let normal = Vec3A::from(self.origin);
+        let along = ray.origin + ray.direction * hit.t;
+        // Moves the rounding error of a long ray into the triangle's plane.
+        let point = along - normal * (normal.dot(along) - self.offset);
+        let front = ray.direction.dot(normal) < 0.0;
+        let geometric = if front { normal } else { -normal };
         let mut out = Interaction {
             point,
             geometric,
@@ -206,7 +202,7 @@ impl Geometry {
             let (u, v) = (hit.u, hit.v);
             let w = 1.0 - u - v;
             out.uv = a.uvs[0] * w + a.uvs[1] * u + a.uvs[2] * v;
-            let smooth = a.normals[0] * w + a.normals[1] * u + a.normals[2] * v;
+            let smooth = Vec3A::from(a.normals[0] * w + a.normals[1] * u + a.normals[2] * v);
             let squared = smooth.length_squared();
             if squared > 1e-6 {
                 let smooth = smooth * (1.0 / squared.sqrt());
@@ -222,12 +218,12 @@ impl Geometry {
 
     #[inline(always)]
     fn on_sphere(&self, ray: &Ray, hit: &Hit) -> Interaction {
-        let radius = self.edge1.x;
-        let outward = (ray.origin + ray.direction * hit.t - self.origin).normalize_or(-ray.direction);
+        let (center, radius) = (Vec3A::from(self.origin), self.offset);
+        let outward = (ray.origin + ray.direction * hit.t - center).normalize_or(-ray.direction);
         let front = ray.direction.dot(outward) < 0.0;
         let geometric = if front { outward } else { -outward };
         Interaction {
-            point: self.origin + outward * radius,
+            point: center + outward * radius,
             geometric,
             normal: geometric,
             front,

@@ -58,6 +58,8 @@ impl Bvh {
         let params = BvhBuildParams {
             max_prims_per_leaf: 1,
             reinsertion_batch_ratio: 0.2,
+            // The tree keeps one primitive per leaf here, so a second pass would only repeat the first.
+            post_collapse_reinsertion_batch_ratio_multiplier: 0.0,
             ..BvhBuildParams::medium_build()
         };
         let tree = build_bvh2(&boxes, params, &mut Duration::default());
