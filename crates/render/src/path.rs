@@ -27,8 +27,10 @@ pub struct Outcome {
     pub normal: Vec3A,
     /// See [`crate::Quantity::Depth`].
     pub depth: f32,
-    /// See [`crate::Quantity::Visibility`].
-    pub visibility: f32,
+    /// 1 if a shadow ray from the first hit reached its light.
+    pub reached: f32,
+    /// 1 if a shadow ray was traced from the first hit.
+    pub traced: f32,
     /// See [`crate::Quantity::Direct`].
     pub direct: Vec3A,
     /// Material, −1 for background.
@@ -45,7 +47,8 @@ impl Outcome {
         albedo: Vec3A::ZERO,
         normal: Vec3A::ZERO,
         depth: 0.0,
-        visibility: 0.0,
+        reached: 0.0,
+        traced: 0.0,
         direct: Vec3A::ZERO,
         material: -1,
         flash_base: Vec3A::ZERO,
@@ -153,12 +156,15 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
         if let Some(light) = scene.lights.sample(origin, at.normal, u) {
             let (value, density) = lobe.eval(&at, to_viewer, light.direction);
             if density > 0.0 {
+                if FEATURES && edge == 1 {
+                    out.traced = 1.0;
+                }
                 let shadow = Ray { origin, direction: light.direction };
                 if !scene.bvh.occluded(&shadow, reach(&light), stack) {
                     let weight = power_heuristic(light.density, density) / light.density;
                     out.color += throughput * value * light.radiance * weight;
                     if FEATURES && edge == 1 {
-                        out.visibility = 1.0;
+                        out.reached = 1.0;
                     }
                 }
             }

@@ -12,8 +12,8 @@ use crate::{Keep, Prepared, Quantity, Record, RenderError};
 
 /// Values in a tally without features and flash: the colour.
 pub const COLOR: usize = 3;
-/// Colour, then albedo, normal, depth, visibility, direct.
-pub const WITH_FEATURES: usize = COLOR + 11;
+/// Colour, then albedo, normal, depth, shadow rays that reached a light, shadow rays traced, direct.
+pub const WITH_FEATURES: usize = COLOR + 12;
 /// Colour, then F0, S and their sum.
 pub const WITH_FLASH: usize = COLOR + 9;
 /// Colour, features, flash.
@@ -25,10 +25,25 @@ enum Source {
     Mean(usize),
     Variance(usize),
     Half(usize, usize),
+    /// [`REACHED`] over [`TRACED`].
+    Visibility(Statistic),
     /// Covariance of the means of values `i` and `i + 3`, whose sum is value `i + 6`.
     Covariance(usize),
     Material,
 }
+
+/// Which statistic of the visibility.
+#[derive(Debug, Clone, Copy)]
+enum Statistic {
+    Mean,
+    Variance,
+    Half(usize),
+}
+
+/// Value of a tally: 1 if a shadow ray from the first hit reached its light.
+const REACHED: usize = 10;
+/// Value of a tally: 1 if a shadow ray was traced from the first hit.
+const TRACED: usize = 11;
 
 /// What is kept.
 #[derive(Debug, Clone)]
@@ -42,14 +57,34 @@ pub struct Plan {
     pub flash: bool,
 }
 
+/// Shadow rays that reached a light over shadow rays traced; zero if none was.
+fn fraction(mean: &[f64]) -> f64 {
+    match (mean.get(REACHED), mean.get(TRACED)) {
+        (Some(reached), Some(traced)) if *traced > 0.0 => (reached / traced).min(1.0),
+        _ => 0.0,
+    }
+}
+
+/// Variance of the fraction R by linearisation: the residuals reached − R·traced have the sum of squares n·traced·R·(1−R), so
+/// the ratio of means has R·(1−R) / ((n−1)·traced), with `traced` the mean per sample.
+fn fraction_variance(mean: &[f64], samples: u64) -> f64 {
+    match mean.get(TRACED) {
+        Some(traced) if *traced > 0.0 && samples >= 2 => {
+            let fraction = fraction(mean);
+            fraction * (1.0 - fraction) / ((samples - 1) as f64 * traced)
+        }
+        _ => 0.0,
+    }
+}
+
 /// First value and number of values of a quantity in a tally.
 fn values(quantity: Quantity, features: bool) -> (usize, usize) {
     match quantity {
         Quantity::Albedo => (3, 3),
         Quantity::Normal => (6, 3),
         Quantity::Depth => (9, 1),
-        Quantity::Visibility => (10, 1),
-        Quantity::Direct => (11, 3),
+        Quantity::Visibility => (REACHED, 1),
+        Quantity::Direct => (12, 3),
         Quantity::Material => (0, 0),
         Quantity::Flash => (if features { WITH_FEATURES } else { COLOR }, 3),
     }
@@ -85,6 +120,14 @@ impl Plan {
     fn list_sources(&mut self) {
         let mut sources = Vec::new();
         let mut estimate = |first: usize, count: usize, keep: Keep| {
+            if first == REACHED && self.features {
+                sources.push(Source::Visibility(Statistic::Mean));
+                sources.extend(keep.variance.then_some(Source::Visibility(Statistic::Variance)));
+                if keep.halves {
+                    sources.extend([0, 1].map(|half| Source::Visibility(Statistic::Half(half))));
+                }
+                return;
+            }
             let range = first..first + count;
             sources.extend(range.clone().map(Source::Mean));
             if keep.variance {
@@ -134,6 +177,9 @@ impl Plan {
                 Source::Half(half, i) => halves[half][i],
                 // Polarisation: the f64 rounding of the variances is far below any covariance that matters.
                 Source::Covariance(i) => 0.5 * (variance[i + 6] - variance[i] - variance[i + 3]),
+                Source::Visibility(Statistic::Mean) => fraction(&mean),
+                Source::Visibility(Statistic::Half(half)) => fraction(&halves[half]),
+                Source::Visibility(Statistic::Variance) => fraction_variance(&mean, total.count()),
                 Source::Material => f64::from(material),
             } as f32;
         }
@@ -208,7 +254,7 @@ pub fn tally_values<const FEATURES: bool, const FLASH: bool, const C: usize>(
         sum += o.albedo + o.normal + o.direct + Vec3A::splat(o.depth);
         put(o.albedo, 3);
         put(o.normal, 3);
-        put(Vec3A::new(o.depth, o.visibility, 0.0), 2);
+        put(Vec3A::new(o.depth, o.reached, o.traced), 3);
         put(o.direct, 3);
     }
     if FLASH {

@@ -16,8 +16,8 @@ pub enum Quantity {
     Normal,
     /// [`FeatureId::Depth`]: distance from the ray's origin to the first hit, 0 for background.
     Depth,
-    /// [`FeatureId::Visibility`]: mean over the samples of 1 if a shadow ray from the first hit reached its light and 0
-    /// if it was blocked or none was traced (background, perfectly specular, light below the horizon).
+    /// [`FeatureId::Visibility`]: shadow rays from the first hit that reached their light over shadow rays traced, 0 if none
+    /// was (background, perfectly specular, light below the horizon).
     Visibility,
     /// [`FeatureId::Direct`]: emission seen directly plus light scattered once; the colour at path depth 2.
     Direct,

@@ -3,7 +3,7 @@ use noisefloor_frame::{PixelFilter, Sampling};
 use crate::{Prepared, Record, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
-pub const REVISION: u32 = 2;
+pub const REVISION: u32 = 3;
 
 /// Deepest path that may be asked for.
 pub const DEEPEST: u32 = 1024;

@@ -177,8 +177,31 @@ fn visibility_is_the_reached_share_of_shadow_rays() {
     quad(&mut half, Vec3::new(0.2, 1.5, 0.0), Vec3::X * 2.0, Vec3::Z * 2.0, white);
     // Binomial: four standard errors of 2048 trials.
     assert!((seen(&half) - 0.5).abs() < 4.0 * (0.25f64 / 2048.0).sqrt());
+    let halves = one_pixel(&half, 2048).features[&FeatureId::Visibility].clone();
+    let [a, b] = halves.halves.unwrap();
+    assert!((0.5 * (a.data()[0] + b.data()[0]) - halves.mean.data()[0]).abs() < 1e-3);
+    // R(1−R)/(n−1) where every sample traces a shadow ray.
+    let (share, n) = (f64::from(halves.mean.data()[0]), 2048.0);
+    let expected = share * (1.0 - share) / (n - 1.0);
+    let variance = f64::from(halves.variance.unwrap().mean_variance().data()[0]);
+    assert!((variance - expected).abs() < 1e-5 * expected, "{variance} {expected}");
     quad(&mut half, Vec3::new(0.2, 1.5, -2.0), Vec3::X * 2.0, Vec3::Z * 2.0, white);
     assert_eq!(seen(&half), 0.0);
+}
+
+#[test]
+fn samples_without_a_shadow_ray_do_not_dilute_the_visibility() {
+    // Box filter over the edge of a lit quad: samples beside it trace nothing.
+    let mut scene = empty(camera(Vec3::new(0.0, 4.0, 0.0), Vec3::ZERO, 10.0));
+    let white = add_material(&mut scene, diffuse(0.5), 0.0);
+    let light = add_material(&mut scene, diffuse(0.0), 1.0);
+    quad(&mut scene, Vec3::new(-5.0, 0.0, 0.0), Vec3::Z * 5.0, Vec3::X * 10.0, white);
+    quad(&mut scene, Vec3::new(1.0, 3.0, 1.0), Vec3::X * 2.0, Vec3::Z * 2.0, light);
+    let prepared = Prepared::new(&scene).unwrap();
+    let frame = render(&RenderRequest::new(&prepared, 1, 1, 256), &Silent).unwrap();
+    let depth = frame.features[&FeatureId::Depth].mean.data()[0];
+    assert!(depth > 1.0 && depth < 3.5, "about half of the samples hit: {depth}");
+    assert_eq!(frame.features[&FeatureId::Visibility].mean.data(), [1.0]);
 }
 
 #[test]

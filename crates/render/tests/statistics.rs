@@ -3,7 +3,7 @@
 mod common;
 
 use common::*;
-use noisefloor_frame::{Estimate, Frame, PixelFilter, Sampling};
+use noisefloor_frame::{Estimate, FeatureId, Frame, PixelFilter, Sampling};
 use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render, render_reference};
 
 /// The same request with every random seed of a range.
@@ -138,7 +138,8 @@ fn ranges_of_samples_join_to_the_whole() {
         };
         join(&first.color, &rest.color, &all.color);
         for (id, feature) in &all.features {
-            if *id != noisefloor_frame::FeatureId::Material {
+            // The material is the first sample's, and visibility a ratio of two counts.
+            if !matches!(id, FeatureId::Material | FeatureId::Visibility) {
                 join(&first.features[id], &rest.features[id], feature);
             }
         }
