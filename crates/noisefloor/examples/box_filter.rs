@@ -11,7 +11,8 @@
 use std::process::ExitCode;
 
 use noisefloor::{
-    Citation, DenoiseError, Denoiser, Entry, Image, Input, MethodCard, Output, ParamDoc, StageTimer, build_with,
+    Citation, DenoiseError, Denoiser, Entry, Image, Input, MethodCard, Output, ParamDoc, StageTimer,
+    build_with,
 };
 use serde::{Deserialize, Serialize};
 

@@ -43,8 +43,8 @@
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
-    Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry, Guarded, Input, Method,
-    MethodCard, Need, Output, ParamDoc, Registry, StageSeconds, StageTimer, build_with, params_from,
+    Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry, Guarded, Input,
+    Method, MethodCard, Need, Output, ParamDoc, Registry, StageSeconds, StageTimer, build_with, params_from,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Flash, Frame, FrameError, Hygiene, Image, PixelFilter, Provenance,

@@ -33,7 +33,10 @@ fn a_frame_is_rendered_denoised_and_compared() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     done(at, &["render", "cornell", "--spp", "8", "--seed", "3", "--size", "32x24", "-o", "frame.exr"]);
-    done(at, &["render", "cornell", "--spp", "256", "--parts", "8", "--size", "32x24", "-o", "reference.exr"]);
+    done(
+        at,
+        &["render", "cornell", "--spp", "256", "--parts", "8", "--size", "32x24", "-o", "reference.exr"],
+    );
     let told = json(
         at,
         &["denoise", "frame.exr", "--method", "virtual-flash", "-o", "out.exr", "--json", "--diagnostics"],
@@ -139,5 +142,9 @@ fn a_report_can_be_made_again_from_what_was_kept() {
     std::fs::remove_dir_all(at.join("cache")).unwrap();
     done(at, &["report", "results", "--recompute"]);
     assert!(page.is_file());
-    assert_eq!(first["cells"], summary("summary.json")["cells"], "kept images give the recorded metrics again");
+    assert_eq!(
+        first["cells"],
+        summary("summary.json")["cells"],
+        "kept images give the recorded metrics again"
+    );
 }
