@@ -47,15 +47,15 @@ macro_rules! naive_twin {
             #[inline]
             pub fn weight(&self, (px, py): (isize, isize), (qx, qy): (isize, isize)) -> $real {
                 let (w, h) = (self.params.width, self.params.height);
-                let at = |x: isize, y: isize| mirror(y, h) * w + mirror(x, w);
                 let offset = ((qx - px).pow(2) + (qy - py).pow(2)) as $real;
                 let Some(guide) = self.inputs.guide else { return (-offset * self.spatial).exp() };
                 let f = self.params.patch.radius() as isize;
                 let mut distance = 0.0;
                 let mut taps = self.patch.iter();
                 for j in -f..=f {
+                    let (p_row, q_row) = (mirror(py + j, h) * w, mirror(qy + j, h) * w);
                     for (i, tap) in (-f..=f).zip(&mut taps) {
-                        let (a, b) = (at(px + i, py + j), at(qx + i, qy + j));
+                        let (a, b) = (p_row + mirror(px + i, w), q_row + mirror(qx + i, w));
                         let mut square = 0.0;
                         for plane in guide.planes {
                             let difference = plane[a] as $real - plane[b] as $real;
@@ -65,7 +65,7 @@ macro_rules! naive_twin {
                     }
                 }
                 if distance.is_finite() {
-                    let range = guide.inv_two_sigma_r2[at(px, py)] as $real;
+                    let range = guide.inv_two_sigma_r2[py as usize * w + px as usize] as $real;
                     (-offset * self.spatial - distance / 3.0 * range).exp()
                 } else {
                     // Overflow: nothing alike.
