@@ -74,7 +74,8 @@ pub(crate) fn interval(i: &Interval) -> Shown {
     };
     let half = 0.5 * (high - low);
     let symmetric = ((high - i.value) - (i.value - low)).abs() <= 0.02 * half.abs();
-    if !(half > 0.0) || !i.value.is_finite() {
+    let shows = half > 0.0 && i.value.is_finite();
+    if !shows {
         return Shown { value: significant(i.value, 3), spread: String::new() };
     }
     if !symmetric {

@@ -227,6 +227,7 @@ fn fill(index: &Index<'_>, plots: &PlotSets, glyphs: &str, gallery: &Gallery) ->
     // The names end in .html, which turns on escaping of every text.
     environment.add_template("index.html", TEMPLATE)?;
     environment.add_template("sections.html", SECTIONS)?;
+    let has_diagnostics = gallery.scenes.iter().flat_map(|s| &s.levels).any(|l| !l.diagnostics.is_empty());
     let contents = Contents {
         page: view::page(index),
         plots,
@@ -235,6 +236,7 @@ fn fill(index: &Index<'_>, plots: &PlotSets, glyphs: &str, gallery: &Gallery) ->
         manifest: script_json(&manifest(index, gallery))?,
         images: gallery.images.iter().map(|i| i.text.as_str()).collect(),
         omitted: &gallery.omitted,
+        diagnostics_spp: gallery.diagnostics_spp.filter(|_| has_diagnostics),
         unreadable: &gallery.unreadable,
         image_megabytes: crate::format::significant(gallery.bytes() as f64 / 1e6, 2),
         css: format!("{STYLE}\n{}", style::css()),
@@ -253,6 +255,8 @@ struct Contents<'a> {
     manifest: String,
     images: Vec<&'a str>,
     omitted: &'a [String],
+    /// Level of the diagnostics, if there are any.
+    diagnostics_spp: Option<u32>,
     unreadable: &'a [String],
     image_megabytes: String,
     css: String,

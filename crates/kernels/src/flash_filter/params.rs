@@ -130,28 +130,19 @@ impl FlashParams {
     /// The first thing that is out of range; see [`FlashFilterError`].
     pub fn check(&self, inputs: &FlashInputs<'_>) -> Result<(), FlashFilterError> {
         let (width, height) = (self.width, self.height);
-        let pixels = width.checked_mul(height).filter(|n| (1..=MAX_PIXELS).contains(n));
-        let Some(pixels) = pixels else {
+        if !width.checked_mul(height).is_some_and(|n| (1..=MAX_PIXELS).contains(&n)) {
             return Err(FlashFilterError::ImageSize { width, height, max: MAX_PIXELS });
-        };
+        }
         if self.window_radius > MAX_WINDOW_RADIUS {
             return Err(FlashFilterError::WindowRadius { value: self.window_radius, max: MAX_WINDOW_RADIUS });
         }
         if self.spatial_sigma.is_nan() || self.spatial_sigma <= 0.0 {
             return Err(FlashFilterError::Sigma { parameter: "spatial sigma", value: self.spatial_sigma });
         }
-        let check = |plane: &'static str, values: &[f32], allowed: &'static str, ok: fn(f32) -> bool| {
-            if values.len() != pixels {
-                return Err(FlashFilterError::PlaneLength { plane, expected: pixels, actual: values.len() });
-            }
-            let Some(index) = first_bad(values, ok) else { return Ok(()) };
-            let (x, y) = (index % width, index / width);
-            Err(FlashFilterError::Value { plane, x, y, value: values[index], allowed })
-        };
         for (name, plane) in ["source 0", "source 1", "source 2"].into_iter().zip(inputs.source) {
-            check(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_SOURCE)?;
+            self.check_plane(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_SOURCE)?;
         }
-        let half_widths = |name, plane| check(name, plane, "0 to infinity", |v| v >= 0.0);
+        let half_widths = |name, plane| self.check_plane(name, plane, "0 to infinity", |v| v >= 0.0);
         match inputs.membership {
             Membership::Joint(planes) | Membership::PerChannel(planes) => {
                 for (name, plane) in ["half-width 0", "half-width 1", "half-width 2"].into_iter().zip(planes)
@@ -164,11 +155,33 @@ impl FlashParams {
         }
         if let Some(guide) = inputs.guide {
             for (name, plane) in ["guide 0", "guide 1", "guide 2"].into_iter().zip(guide.planes) {
-                check(name, plane, "any finite value", f32::is_finite)?;
+                self.check_plane(name, plane, "any finite value", |v| v.is_finite())?;
             }
             let range = |v: f32| (0.0..=f32::MAX).contains(&v);
-            check("inv_two_sigma_r2", guide.inv_two_sigma_r2, "0 or any positive finite value", range)?;
+            self.check_plane(
+                "inv_two_sigma_r2",
+                guide.inv_two_sigma_r2,
+                "0 or any positive finite value",
+                range,
+            )?;
         }
         Ok(())
+    }
+
+    /// Checks the length of one plane and each of its values. Generic, so that the test is inlined and vectorised.
+    fn check_plane(
+        &self,
+        plane: &'static str,
+        values: &[f32],
+        allowed: &'static str,
+        ok: impl Fn(f32) -> bool + Sync,
+    ) -> Result<(), FlashFilterError> {
+        let expected = self.width * self.height;
+        if values.len() != expected {
+            return Err(FlashFilterError::PlaneLength { plane, expected, actual: values.len() });
+        }
+        let Some(index) = first_bad(values, ok) else { return Ok(()) };
+        let (x, y) = (index % self.width, index / self.width);
+        Err(FlashFilterError::Value { plane, x, y, value: values[index], allowed })
     }
 }

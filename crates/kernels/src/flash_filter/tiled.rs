@@ -2,7 +2,7 @@
 
 use super::hot::{self, Block, JOINT, SEPARATE, SINGLE, TileView};
 use super::layout::{BLOCK, Grid, Layout};
-use super::members::Tests;
+use super::members::{EVERYTHING, Tests, half_width};
 use super::naive::mirror;
 use super::params::MAX_PATCH_RADIUS;
 use super::{FlashInputs, FlashParams};
@@ -183,7 +183,7 @@ impl Job<'_> {
     }
 
     /// Fills in what each pixel of the tile compares with and scales by.
-    fn fill_pixels(&self, tile: Tile, half_width: &mut [f32], factor: &mut [f32]) {
+    fn fill_pixels(&self, tile: Tile, half_widths: &mut [f32], factor: &mut [f32]) {
         let grid = &self.layout.pixel;
         let tests = match &self.tests {
             Tests::Shared(tests) => tests.as_slice(),
@@ -192,9 +192,14 @@ impl Job<'_> {
         for j in 0..tile.height {
             let first = (tile.y + j) * self.params.width + tile.x;
             for (c, test) in tests.iter().enumerate() {
-                let row = &mut half_width[c * grid.plane + j * grid.pitch..][..tile.width];
-                for (i, value) in row.iter_mut().enumerate() {
-                    *value = test.half_width(first + i);
+                let row = &mut half_widths[c * grid.plane + j * grid.pitch..][..tile.width];
+                let Some(tolerance) = test.tolerance else {
+                    row.fill(EVERYTHING);
+                    continue;
+                };
+                let (tolerance, center) = (&tolerance[first..], &test.values[first..]);
+                for ((value, &tolerance), &center) in row.iter_mut().zip(tolerance).zip(center) {
+                    *value = half_width(tolerance, center);
                 }
             }
             if let Some(guide) = self.inputs.guide {

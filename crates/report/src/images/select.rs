@@ -21,6 +21,9 @@ pub(crate) type Crop = [usize; 4];
 pub(crate) struct Gallery {
     pub scenes: Vec<GalleryScene>,
     pub images: Vec<Encoded>,
+    /// The level whose diagnostics the page carries.
+    #[serde(skip)]
+    pub diagnostics_spp: Option<u32>,
     /// Levels that the page leaves out to stay small, as sentences.
     #[serde(skip)]
     pub omitted: Vec<String>,
@@ -62,14 +65,16 @@ impl Gallery {
 /// Chooses and encodes images until the budget (bytes of text in the page) is used up.
 ///
 /// First the references and the level that the page opens with, for every scene, cropped around the centre if
-/// even these are too large; then that level's diagnostics; then further levels, each as a whole or not at all.
+/// even these are too large; then that level's diagnostics (other levels' stay outside); then further levels, each
+/// as a whole or not at all.
 pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Gallery {
     let study = &index.summary.study;
     let wanted: Vec<u32> =
         if study.viewer_spp.is_empty() { study.spp.clone() } else { study.viewer_spp.clone() };
     let first =
         index.default_spp().filter(|n| wanted.contains(n)).or_else(|| wanted.get(wanted.len() / 2).copied());
-    let mut builder = Builder { index, load, gallery: Gallery::default(), stored: BTreeMap::new() };
+    let mut builder =
+        Builder { index, load, gallery: Gallery::default(), stored: BTreeMap::new(), left_out: 0 };
     let share = budget / index.summary.scenes.len().max(1);
     for scene in &index.summary.scenes {
         builder.open(scene, first, share);
@@ -80,10 +85,12 @@ pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Ga
     for &spp in wanted.iter().filter(|n| Some(**n) != first) {
         builder.each(|b, i, scene| b.add_level(i, scene, spp, budget));
     }
-    for &spp in wanted.iter().filter(|n| Some(**n) != first) {
-        builder.each(|b, i, scene| b.add_diagnostics(i, scene, spp, budget));
-    }
+    let left_out = builder.left_out;
     let mut gallery = builder.gallery;
+    if left_out > 0 {
+        gallery.omitted.push(crate::format::plural(left_out, "diagnostic image"));
+    }
+    gallery.diagnostics_spp = first;
     gallery.scenes.iter_mut().for_each(|s| s.levels.sort_by_key(|l| l.spp));
     gallery
 }
@@ -94,6 +101,8 @@ struct Builder<'a> {
     gallery: Gallery,
     /// Images in the gallery by scene and path, so that shared files are carried once.
     stored: BTreeMap<(usize, String), usize>,
+    /// Diagnostics that did not fit.
+    left_out: usize,
 }
 
 impl<'a> Builder<'a> {
@@ -166,10 +175,14 @@ impl<'a> Builder<'a> {
     }
 
     fn store(&mut self, scene: usize, path: &str, image: Encoded) {
-        let position = self.gallery.images.len();
-        if let std::collections::btree_map::Entry::Vacant(entry) = self.stored.entry((scene, path.to_owned()))
-        {
-            entry.insert(position);
+        let key = (scene, path.to_owned());
+        if self.stored.contains_key(&key) {
+            return;
+        }
+        // Rows often share a diagnostic: the same pixels are carried once.
+        let same = self.gallery.images.iter().position(|known| *known == image);
+        self.stored.insert(key, same.unwrap_or(self.gallery.images.len()));
+        if same.is_none() {
             self.gallery.images.push(image);
         }
     }
@@ -182,7 +195,8 @@ impl<'a> Builder<'a> {
             .filter(|p| !self.stored.contains_key(&(position, (*p).to_owned())))
             .collect();
         let encoded = self.read(&missing, self.gallery.scenes[position].crop);
-        let bytes: usize = encoded.iter().map(|(e, _)| e.text.len()).sum();
+        let new = encoded.iter().filter(|(image, _)| !self.gallery.images.contains(image));
+        let bytes: usize = new.map(|(image, _)| image.text.len()).sum();
         let fits = self.gallery.bytes() + bytes <= budget;
         if fits {
             for (image, path) in encoded {
@@ -211,7 +225,7 @@ impl<'a> Builder<'a> {
         for (label, by_spp) in &scene.diagnostics {
             for (name, path) in by_spp.get(&spp).into_iter().flatten() {
                 if !self.fit(position, &[path], budget) {
-                    self.gallery.omitted.push(format!("{}, {name} of {label} at {spp} spp", scene.title));
+                    self.left_out += 1;
                     continue;
                 }
                 if let Some(&image) = self.stored.get(&(position, path.clone())) {

@@ -51,8 +51,12 @@ pub(crate) fn bounds(index: &Index<'_>, scene: &SceneSummary) -> Option<Figure> 
         let data: Vec<Datum> = of_scene.iter().filter(|b| row.matches(b)).map(|b| datum(b)).collect();
         let shift = (i as f64 - 0.5 * (rows.len() - 1) as f64) * step;
         chart.series(look, &data, shift, true);
-        let kind = if row.proven { "proven" } else { "as printed" };
-        keys.push(Key::Series(look, format!("{} · {} ({kind})", row.label, row.claim)));
+        let kind = match row.proven {
+            true => " (proven)",
+            false if row.claim.contains("as printed") => "",
+            false => " (as printed)",
+        };
+        keys.push(Key::Series(look, format!("{} · {}{kind}", row.label, row.claim)));
     }
     Some(chart.finish(keys, vec![Key::Line(promised, "promised rate α".into())]))
 }

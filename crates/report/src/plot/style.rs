@@ -86,7 +86,14 @@ impl Looks {
         }
         for method in methods {
             if let Some(look) = inner(method, methods).and_then(|i| by_label.get(i).copied()) {
-                by_label.insert(method.label.clone(), Look { open: true, dash: GUARDED, ..look });
+                let mut guarded = Look { open: true, dash: GUARDED, ..look };
+                // Two guarded rows of one method differ in their parameters only: tell them apart by marker.
+                for marker in MARKERS {
+                    if by_label.values().any(|taken| *taken == guarded) {
+                        guarded.marker = marker;
+                    }
+                }
+                by_label.insert(method.label.clone(), guarded);
             }
         }
         Self { by_label }
@@ -136,13 +143,15 @@ pub(crate) fn swatches(index: &Index<'_>) -> Result<String, ReportError> {
     Ok(out)
 }
 
-/// Label of the row that this one guards, if both are rows of the study.
+/// Label of the row that this one guards, if both are rows of the study: `guarded(x) more` guards `x more`, else a row
+/// of the method `x`.
 fn inner<'a>(method: &MethodSummary, methods: &'a [MethodSummary]) -> Option<&'a str> {
-    let strip =
-        |name: &str| name.strip_prefix("guarded(").and_then(|n| n.strip_suffix(')')).map(str::to_owned);
-    let by_label = strip(&method.label).and_then(|name| methods.iter().find(|m| m.label == name));
-    let by_method = || strip(&method.method).and_then(|name| methods.iter().find(|m| m.method == name));
-    by_label.or_else(by_method).map(|m| m.label.as_str())
+    let (name, suffix) =
+        method.label.strip_prefix("guarded(").and_then(|l| l.rsplit_once(')')).unwrap_or_default();
+    let label = format!("{name}{suffix}");
+    let id = method.method.strip_prefix("guarded(").and_then(|m| m.strip_suffix(')'));
+    let by_label = methods.iter().find(|m| !name.is_empty() && m.label == label);
+    by_label.or_else(|| methods.iter().find(|m| Some(m.method.as_str()) == id)).map(|m| m.label.as_str())
 }
 
 /// Draws a data point of about 4.4 points across.
@@ -203,6 +212,9 @@ mod tests {
             row("virtual-flash", "virtual-flash"),
             row("geometric", "geometric"),
             row("projected", "guarded(virtual-flash)"),
+            row("projected twice", "guarded(virtual-flash)"),
+            row("virtual-flash steps=1", "virtual-flash"),
+            row("guarded(virtual-flash) steps=1", "guarded(virtual-flash)"),
         ];
         let looks = Looks::of(&rows);
         assert_eq!(looks.get("mc").color, INK);
@@ -210,6 +222,12 @@ mod tests {
         assert!(looks.get("projected").open && !looks.get("virtual-flash").open);
         assert_eq!(looks.get("guarded(geometric)").color, looks.get("geometric").color);
         assert_ne!(looks.get("geometric").color, looks.get("virtual-flash").color);
+        let (one, guarded_one) =
+            (looks.get("virtual-flash steps=1"), looks.get("guarded(virtual-flash) steps=1"));
+        assert_eq!(one.color, guarded_one.color);
+        for (i, a) in rows.iter().enumerate() {
+            assert!(rows[..i].iter().all(|b| looks.get(&a.label) != looks.get(&b.label)), "{}", a.label);
+        }
     }
 
     #[test]

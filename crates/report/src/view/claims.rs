@@ -191,8 +191,11 @@ fn bound_cell(b: &BoundSummary) -> BoundCell {
 #[derive(Debug, Serialize)]
 pub(crate) struct EnclosureView {
     pub scenes: Vec<String>,
-    pub rows: Vec<(String, usize, Vec<Option<(String, bool)>>)>,
+    pub rows: Vec<EnclosureRow>,
 }
+
+/// Label, swatch, and per scene the ratio and whether the promise held.
+type EnclosureRow = (String, usize, Vec<Option<(String, bool)>>);
 
 /// The enclosure table; nothing if no row claims an enclosure.
 pub(crate) fn enclosures(index: &Index<'_>) -> Option<EnclosureView> {

@@ -177,7 +177,7 @@ fn claims(index: &Index<'_>) -> Option<Answer> {
     let mut sentences = Vec::new();
     let mut tone = "good";
     sentences.extend(coverage_sentence(index));
-    for (proven, kind) in [(true, "proven"), (false, "printed but unproven")] {
+    for (proven, kind) in [(true, "proven (for normal samples)"), (false, "printed but unproven")] {
         let of_kind: Vec<_> =
             summary.bounds.iter().filter(|b| b.class == "all" && b.proven == proven).collect();
         if of_kind.is_empty() {
@@ -190,8 +190,13 @@ fn claims(index: &Index<'_>) -> Option<Answer> {
                 .iter()
                 .max_by(|a, b| (a.violations.value * b.alpha).total_cmp(&(b.violations.value * a.alpha)));
             let example = worst.map_or_else(String::new, |b| {
+                let missed = if b.missed > 0.0 {
+                    format!(", {} of it where no sample met a rare event", format::percent(b.missed))
+                } else {
+                    String::new()
+                };
                 format!(
-                    "; worst {} beside a promised {} ({}, {} spp, {})",
+                    "; worst {}{missed} beside a promised {} ({}, {} spp, {})",
                     format::percent(b.violations.value),
                     format::percent_short(b.alpha),
                     index.scene_title(&b.scene),
@@ -200,12 +205,12 @@ fn claims(index: &Index<'_>) -> Option<Answer> {
                 )
             });
             sentences.push(format!(
-                "The {kind} error bounds were broken more often than promised in {broken} of {} cells{example}.",
+                "Error bounds, {kind}: broken more often than promised in {broken} of {} cells{example}.",
                 of_kind.len()
             ));
         } else {
             sentences.push(format!(
-                "The {kind} error bounds were broken no more often than promised in all {} cells.",
+                "Error bounds, {kind}: broken no more often than promised in all {} cells.",
                 of_kind.len()
             ));
         }
@@ -255,7 +260,7 @@ fn breaks(index: &Index<'_>) -> Answer {
     }
     if skipped > 0 {
         let reasons = format::plural(skipped, "row");
-        sentences.push(format!("{reasons} skipped for want of inputs, listed below the tables."));
+        sentences.push(format!("{reasons} skipped, with the reason below the tables."));
     }
     if failed > 0 {
         sentences.push(format!("{} ended in an error.", format::plural(failed, "row")));

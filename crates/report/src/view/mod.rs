@@ -122,7 +122,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
 
 /// The study's own warnings, and those that the numbers of the summary add.
 fn warnings(summary: &Summary) -> Vec<String> {
-    let mut warnings = summary.warnings.clone();
+    let mut warnings = merged(&summary.warnings);
     let environment = &summary.environment;
     if environment.profile == "debug" {
         warnings.push("Times were taken with a debug build and say nothing about speed.".into());
@@ -141,6 +141,23 @@ fn warnings(summary: &Summary) -> Vec<String> {
             .push(format!("{lost} output values were not finite; their pixels are left out of the metrics."));
     }
     warnings
+}
+
+/// Warnings that say the same of several subjects (`subject: what`), as one.
+fn merged(warnings: &[String]) -> Vec<String> {
+    let mut groups: Vec<(Vec<&str>, &str)> = Vec::new();
+    for warning in warnings {
+        let (subject, what) = warning.split_once(": ").unwrap_or(("", warning));
+        match groups.iter_mut().find(|(subjects, known)| *known == what && !subjects.contains(&"")) {
+            Some((subjects, _)) if !subject.is_empty() => subjects.push(subject),
+            _ => groups.push((vec![subject], what)),
+        }
+    }
+    let line = |(subjects, what): (Vec<&str>, &str)| match subjects.as_slice() {
+        [""] => what.to_owned(),
+        _ => format!("{}: {what}", format::list(&subjects)),
+    };
+    groups.into_iter().map(line).collect()
 }
 
 fn environment(e: &Environment) -> Vec<(String, String)> {
@@ -219,4 +236,15 @@ fn scenes(summary: &Summary) -> Vec<SceneView> {
             }
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::merged;
+
+    #[test]
+    fn the_same_warning_for_three_scenes_is_one() {
+        let given = ["a: short", "alone", "b: short", "b: long", "c: short"].map(String::from);
+        assert_eq!(merged(&given), ["a, b and c: short", "alone", "b: long"]);
+    }
 }

@@ -55,7 +55,7 @@ pub(crate) fn tables(index: &Index<'_>) -> Vec<SlopeTable> {
 }
 
 fn row(index: &Index<'_>, s: &SlopeSummary) -> SlopeRow {
-    let mut sentence = s.sentence.clone();
+    let mut sentence = plain(&s.sentence, &s.verdict);
     // The sentence names the bias itself; without one the number stands alone.
     if let (true, Some(bias)) = (sentence.is_empty(), &s.bias) {
         sentence = format!("levels off at {}", format::interval(bias).line());
@@ -66,5 +66,32 @@ fn row(index: &Index<'_>, s: &SlopeSummary) -> SlopeRow {
         slope: format::interval(&s.slope).line(),
         verdict: s.verdict.clone(),
         sentence,
+    }
+}
+
+/// The sentence without the verdict that stands beside it, with true minus signs.
+fn plain(sentence: &str, verdict: &str) -> String {
+    let rest = sentence.strip_prefix(verdict).and_then(|s| s.strip_prefix(": ")).unwrap_or(sentence);
+    let mut out = String::with_capacity(rest.len());
+    let mut before = ' ';
+    for (i, c) in rest.char_indices() {
+        let number = rest[i + c.len_utf8()..].starts_with(|d: char| d.is_ascii_digit());
+        out.push(if c == '-' && number && !before.is_alphanumeric() { '−' } else { c });
+        before = c;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn sentences_lose_the_repeated_verdict_and_gain_minus_signs() {
+        assert_eq!(
+            plain("consistent: slope -0.99 (-1.01 to -0.97)", "consistent"),
+            "slope −0.99 (−1.01 to −0.97)"
+        );
+        assert_eq!(plain("plateaus at 1e-5, two-step", "undecided"), "plateaus at 1e-5, two-step");
     }
 }
