@@ -13,9 +13,9 @@ pub(super) const EVERYTHING: f32 = 1e38;
 /// Half-width of the interval that a neighbour's value is compared with, rounding allowance included.
 ///
 /// The test |v_q − v_p| ≤ τ + 4·eps·max(|v_p|, |v_q|) has the neighbour on both sides. With δ = |v_q − v_p| and
-/// |v_q| ≤ |v_p| + δ it implies δ ≤ (τ + 4·eps·|v_p|)·(1 + 4·eps), to first order in eps. That depends on the centre
-/// pixel alone, and the reverse holds up to a factor 1 + 4·eps. The bound is what this returns: it is the same test up to one part in
-/// 2 million of the threshold, at a third of the arithmetic. `tolerance` = τ ≥ 0, `center` = v_p.
+/// |v_q| ≤ |v_p| + δ it implies δ ≤ (τ + 4·eps·|v_p|)·(1 + 4·eps), to first order in eps. That bound depends on the
+/// centre pixel alone, and the reverse holds up to a factor 1 + 4·eps. It is what this returns: the same test up to
+/// one part in 2 million of the threshold, at a third of the arithmetic. `tolerance` = τ ≥ 0, `center` = v_p.
 pub fn half_width(tolerance: f32, center: f32) -> f32 {
     const ALLOWANCE: f32 = 4.0 * f32::EPSILON;
     ((tolerance + ALLOWANCE * center.abs()) * (1.0 + ALLOWANCE)).min(EVERYTHING)

@@ -205,8 +205,8 @@ impl Job<'_> {
             if let Some(guide) = self.inputs.guide {
                 let row = &mut factor[j * grid.pitch..][..tile.width];
                 for (value, &scale) in row.iter_mut().zip(&guide.inv_two_sigma_r2[first..]) {
-                    // Finite, so that distance 0 gives exponent 0 whatever the scale.
-                    *value = ((self.range * f64::from(scale)) as f32).max(f32::MIN);
+                    // Finite, as |range| < 1, so that distance 0 gives exponent 0 whatever the scale.
+                    *value = (self.range * f64::from(scale)) as f32;
                 }
             }
         }
@@ -243,8 +243,6 @@ impl Job<'_> {
         let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
         match self.inputs.guide {
             Some(_) => exponent as f32,
-            // As with a guide: no weight below the normal range.
-            None if exponent < -126.0 => 0.0,
             None => exponent.exp2() as f32,
         }
     }
@@ -274,16 +272,11 @@ impl Job<'_> {
                 let weights = &view.sums[(3 + set) * pixel.plane + here..][..tile.width];
                 let center =
                     &view.source[c * source.plane + source.origin() + j * source.pitch..][..tile.width];
-                let test = if self.rule == SINGLE { 0 } else { c };
-                let bound = &view.half_width[test * pixel.plane + here..][..tile.width];
                 for (i, value) in row.iter_mut().enumerate() {
-                    // The pixel itself has weight 1, so the weight sum is at least 1.
-                    let mut step = sums[i] / weights[i];
-                    if self.rule != SINGLE {
-                        // A weighted mean of steps within the bound: this takes away rounding only.
-                        step = step.clamp(-bound[i], bound[i]);
-                    }
-                    *value = center[i] + step;
+                    // The pixel itself has weight 1, so the weight sum is at least 1. Its own step of 0 also keeps
+                    // the mean step a relative 1/n below the largest of n steps, hence below the half-width, by
+                    // more than rounding can add: no clamp is needed to honour the bound.
+                    *value = center[i] + sums[i] / weights[i];
                 }
             }
         }

@@ -89,7 +89,7 @@ fn luminance_stays_within_its_half_width() {
         };
         for i in 0..75 * 35 {
             let moved = (luminance(&result, i) - luminance(&case.source, i)).abs();
-            // Without the clamp that the tested channels get: rounding of sums of up to 529 terms.
+            // Luminance of rounded means: rounding counts relative to the largest channel that was mixed in.
             let scale = luminance(&case.source, i) + f64::from(case.half_width[0][i]);
             let allowed = f64::from(case.half_width[0][i]) + 1e-5 * scale;
             assert!(moved <= allowed, "pixel {i}: {moved} > {allowed}");
