@@ -17,20 +17,15 @@ pub fn summary_table(summary: &Summary) -> String {
             "\n{}, {}×{}, reference {} samples per pixel ({:.0} × the top level)\n",
             scene.id, scene.width, scene.height, scene.reference.spp, scene.reference.ratio_to_top
         ));
-        let mut rows = vec![vec![
-            "method".to_owned(),
-            format!("{name} at {low}"),
-            "of mc".into(),
-            format!("{name} at {top}"),
-            "of mc".into(),
-            "denoise".into(),
-        ]];
+        let shown = if low == top { vec![top] } else { vec![low, top] };
+        let heads = shown.iter().flat_map(|spp| [format!("{name} at {spp}"), "of mc".into()]);
+        let mut rows: Vec<Vec<String>> =
+            vec![std::iter::once("method".into()).chain(heads).chain(["denoise".into()]).collect()];
         for method in &summary.methods {
             let cell = |spp| {
                 summary.cells.iter().find(|c| c.scene == scene.id && c.spp == spp && c.label == method.label)
             };
-            let (first, last) = (cell(low), cell(top));
-            if first.is_none() && last.is_none() {
+            if shown.iter().all(|spp| cell(*spp).is_none()) {
                 rows.push(vec![method.label.clone(), "skipped".into()]);
                 continue;
             }
@@ -39,15 +34,10 @@ pub fn summary_table(summary: &Summary) -> String {
                     c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
                 of.map_or_else(|| "–".into(), with_interval)
             };
-            rows.push(vec![
-                method.label.clone(),
-                value(first, false),
-                value(first, true),
-                value(last, false),
-                value(last, true),
-                last.and_then(|c| c.denoise_seconds)
-                    .map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3)),
-            ]);
+            let values = shown.iter().flat_map(|spp| [value(cell(*spp), false), value(cell(*spp), true)]);
+            let time = cell(top).and_then(|c| c.denoise_seconds);
+            let time = time.map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3));
+            rows.push(std::iter::once(method.label.clone()).chain(values).chain([time]).collect());
         }
         out.push_str(&aligned(&rows));
     }

@@ -52,6 +52,7 @@ fn info(study: &Study, context: &Context, index: &Index<'_>) -> StudyInfo {
         metrics: study.metrics.iter().filter_map(|id| crate::metric::info(id)).collect(),
         spp: index.levels(),
         viewer_spp: study.viewer_spp.clone(),
+        figures: study.figures.clone(),
         reproduces: study.reproduces.clone(),
     }
 }

@@ -11,6 +11,9 @@ use serde_json::{Map, Value};
 
 pub use builtin::{BuiltinStudy, builtin_studies};
 
+/// Kinds of plots that a study can choose from.
+pub const FIGURES: [&str; 4] = ["convergence", "speed", "coverage", "bounds"];
+
 /// What a study asks, on which scenes, at how many samples, of which methods. A file, not code.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -61,7 +64,7 @@ pub struct Study {
     pub viewer_spp: Vec<u32>,
     /// Pixel `(x, y)` that diagnostics probe, as fractions of the image; the middle if absent.
     pub probe: Option<[f64; 2]>,
-    /// Figures that the report should show, by name; all if empty.
+    /// Which of [`FIGURES`] the report draws; all if empty. Tables are always there.
     pub figures: Vec<String>,
 }
 

@@ -91,6 +91,9 @@ pub struct StudyInfo {
     pub spp: Vec<u32>,
     /// Which spp levels the image viewer shows (all if empty).
     pub viewer_spp: Vec<u32>,
+    /// Which of [`crate::FIGURES`] are drawn (all if empty).
+    #[serde(default)]
+    pub figures: Vec<String>,
     /// Figures this study reproduces, such as `moon2013flash Fig. 9`.
     pub reproduces: Option<String>,
 }

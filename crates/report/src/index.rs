@@ -86,6 +86,18 @@ impl<'a> Index<'a> {
         rows.into_iter().map(|(label, _)| label).collect()
     }
 
+    /// Whether a level of a scene has one replicate only, so that no rows can be told apart there.
+    pub(crate) fn single(&self, scene: &str, spp: u32) -> bool {
+        self.scene(scene).and_then(|s| s.replicates.get(&spp)) == Some(&1)
+    }
+
+    /// Rows other than `label` that the replicates cannot tell from the best; none where they tell nothing.
+    pub(crate) fn tied(&self, scene: &str, spp: u32, metric: &str, label: &str) -> Vec<&'a str> {
+        let group = self.comparison(scene, spp, metric).filter(|_| !self.single(scene, spp));
+        let others = group.into_iter().flat_map(|c| &c.best_group).map(String::as_str);
+        others.filter(|l| *l != label).collect()
+    }
+
     pub(crate) fn scene(&self, id: &str) -> Option<&'a SceneSummary> {
         self.summary.scenes.iter().find(|s| s.id == id)
     }

@@ -9,6 +9,7 @@ use minijinja::Environment;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::value::{Serde, Value};
 use noisefloor_frame::Image;
+use noisefloor_harness::FIGURES;
 use noisefloor_harness::summary::{SUMMARY_SCHEMA, Summary};
 use serde::Serialize;
 
@@ -147,31 +148,35 @@ struct Plots {
     files: Vec<PathBuf>,
 }
 
-/// First words of the files that this program writes into the folder of plots.
-const KINDS: [&str; 4] = ["convergence-", "speed-", "coverage-", "bounds-"];
-
 impl Plots {
     fn draw_all(&mut self, index: &Index<'_>) -> Result<PlotSets, ReportError> {
         let metric = index.summary.study.primary_metric.as_str();
         let has_trimmed = metric == "relmse" && index.metric("relmse_trimmed").is_some();
         let mut sets = PlotSets::default();
         let names = file_names(index);
+        let chosen = &index.summary.study.figures;
+        let wanted = |kind: &str| chosen.is_empty() || chosen.iter().any(|f| f == kind);
         for (scene, name) in index.summary.scenes.iter().zip(&names) {
-            self.add(
-                &mut sets.convergence,
-                format!("convergence-{name}-{metric}"),
-                convergence(index, scene, metric),
-            )?;
-            if has_trimmed {
+            if wanted("convergence") {
+                let figure = convergence(index, scene, metric);
+                self.add(&mut sets.convergence, format!("convergence-{name}-{metric}"), figure)?;
+            }
+            if wanted("convergence") && has_trimmed {
                 let figure = convergence(index, scene, "relmse_trimmed");
                 self.add(&mut sets.trimmed, format!("convergence-{name}-relmse_trimmed"), figure)?;
             }
-            let total = speed(index, scene, metric, Time::Total);
-            self.add(&mut sets.total, format!("speed-{name}-total"), total)?;
-            let denoise = speed(index, scene, metric, Time::Denoise);
-            self.add(&mut sets.denoise, format!("speed-{name}-denoise"), denoise)?;
-            self.add(&mut sets.coverage, format!("coverage-{name}"), coverage(index, scene))?;
-            self.add(&mut sets.bounds, format!("bounds-{name}"), bounds(index, scene))?;
+            if wanted("speed") {
+                let total = speed(index, scene, metric, Time::Total);
+                self.add(&mut sets.total, format!("speed-{name}-total"), total)?;
+                let denoise = speed(index, scene, metric, Time::Denoise);
+                self.add(&mut sets.denoise, format!("speed-{name}-denoise"), denoise)?;
+            }
+            if wanted("coverage") {
+                self.add(&mut sets.coverage, format!("coverage-{name}"), coverage(index, scene))?;
+            }
+            if wanted("bounds") {
+                self.add(&mut sets.bounds, format!("bounds-{name}"), bounds(index, scene))?;
+            }
         }
         Ok(sets)
     }
@@ -197,7 +202,8 @@ impl Plots {
         let entries = fs::read_dir(&self.folder).map_err(ReportError::write(&self.folder))?;
         for path in entries.filter_map(Result::ok).map(|e| e.path()) {
             let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-            let ours = KINDS.iter().any(|kind| name.starts_with(kind))
+            let kind = name.split_once('-').map(|(kind, _)| kind);
+            let ours = kind.is_some_and(|kind| FIGURES.contains(&kind))
                 && (name.ends_with(".svg") || name.ends_with(".png"));
             if ours && !self.files.contains(&path) {
                 fs::remove_file(&path).map_err(ReportError::write(&path))?;

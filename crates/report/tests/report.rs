@@ -204,6 +204,20 @@ fn without_png_stale_plots_are_removed_and_other_files_stay() {
 }
 
 #[test]
+fn a_study_chooses_its_plots_and_keeps_its_tables() {
+    let dir = tempfile::tempdir().unwrap();
+    let (full, _) = written(dir.path(), &study());
+    let mut chosen = study();
+    chosen.study.figures = vec!["coverage".into()];
+    let files = write_report(dir.path(), &chosen).unwrap();
+    let kept = |p: &&std::path::PathBuf| p.file_name().unwrap().to_string_lossy().starts_with("coverage-");
+    assert_eq!(files.plots, full.plots.iter().filter(kept).cloned().collect::<Vec<_>>());
+    assert!(full.plots.iter().all(|p| p.exists() == files.plots.contains(p)), "plots of before are gone");
+    let page = fs::read_to_string(files.index).unwrap();
+    assert!(!page.contains("id=\"convergence\"") && page.contains("id=\"bounds\""));
+}
+
+#[test]
 fn missing_images_are_named_and_do_not_stop_the_report() {
     let dir = tempfile::tempdir().unwrap();
     let mut study = study();

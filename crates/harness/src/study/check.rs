@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use noisefloor_frame::{Reference, Sampling};
 
 use crate::error::{HarnessError, Place};
-use crate::study::{SceneSource, SceneSpec, Study};
+use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
 
 /// Where each part of a study stands in its file.
 #[derive(Debug, Default)]
@@ -93,6 +93,9 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
     if !study.metrics.contains(&study.primary_metric) {
         let listed = study.metrics.join(", ");
         return wrong("primary_metric", key("primary_metric"), quoted(&study.primary_metric), &listed);
+    }
+    if let Some(bad) = study.figures.iter().find(|f| !FIGURES.contains(&f.as_str())) {
+        return wrong("figures", key("figures"), quoted(bad), &FIGURES.join(", "));
     }
     check_scenes(study, lines)?;
     check_rows(study, lines)

@@ -232,8 +232,8 @@ impl Chart {
     /// A small text near a data point, legible over lines.
     pub(crate) fn note(&mut self, x: f64, y: f64, offset: Point, text: String, color: Color) {
         let at = self.at(x, y);
-        let center = (at.0 + offset.0, at.1 + offset.1);
         let half = (0.5 * width(&text, 7.0, Weight::Normal) + 1.0, 4.0);
+        let center = ((at.0 + offset.0).min(COLUMN - half.0), at.1 + offset.1);
         let corner = |s: f64| (center.0 + s * half.0, center.1 + s * half.1);
         self.figure.rect(corner(-1.0), corner(1.0), BACKGROUND, 0.75);
         self.text(center, text, 7.0, Anchor::Center, color);

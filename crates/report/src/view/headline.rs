@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-use noisefloor_harness::summary::{Comparison, Interval, SceneSummary};
+use noisefloor_harness::summary::{Interval, SceneSummary};
 use serde::Serialize;
 
 use crate::format;
@@ -78,8 +78,7 @@ fn error(index: &Index<'_>) -> Option<Answer> {
     for scene in &index.summary.scenes {
         let Some(&label) = index.ranking(&scene.id, spp, metric).first() else { continue };
         wins.entry(label).or_default().push(scene.title.clone());
-        let tied = index.comparison(&scene.id, spp, metric).map(|c| c.best_group.iter().map(String::as_str));
-        groups.push(tied.into_iter().flatten().chain([label]).collect());
+        groups.push(index.tied(&scene.id, spp, metric, label).into_iter().chain([label]).collect());
     }
     let total = groups.len();
     let mut order: Vec<(&str, Vec<String>)> = wins.into_iter().collect();
@@ -191,12 +190,12 @@ fn claims(index: &Index<'_>) -> Option<Answer> {
                 .max_by(|a, b| (a.violations.value * b.alpha).total_cmp(&(b.violations.value * a.alpha)));
             let example = worst.map_or_else(String::new, |b| {
                 let missed = if b.missed > 0.0 {
-                    format!(", {} of it where no sample met a rare event", format::percent(b.missed))
+                    format!("; {} from missed events", format::percent(b.missed))
                 } else {
                     String::new()
                 };
                 format!(
-                    "; worst {}{missed} beside a promised {} ({}, {} spp, {})",
+                    "; worst {} beside a promised {} ({}, {} spp, {}{missed})",
                     format::percent(b.violations.value),
                     format::percent_short(b.alpha),
                     index.scene_title(&b.scene),
@@ -298,13 +297,9 @@ fn board_cell(index: &Index<'_>, scene: &str, spp: u32, metric: &str) -> Option<
         label: label.to_owned(),
         swatch: index.summary.methods.iter().position(|m| m.label == label).unwrap_or(0),
         factor,
-        tied: tied(index.comparison(scene, spp, metric), label),
+        tied: index.tied(scene, spp, metric, label).into_iter().map(str::to_owned).collect(),
         is_baseline,
     })
-}
-
-fn tied(comparison: Option<&Comparison>, label: &str) -> Vec<String> {
-    comparison.map_or_else(Vec::new, |c| c.best_group.iter().filter(|l| *l != label).cloned().collect())
 }
 
 /// One card per scene at the level that the page opens with.
@@ -332,7 +327,7 @@ fn card(index: &Index<'_>, scene: &SceneSummary, spp: u32) -> SceneCard {
 fn sentences(index: &Index<'_>, scene: &str, spp: u32, metric: &str, label: &str) -> Vec<String> {
     let (name, best) = (index.metric_name(metric), best_word(index, metric));
     let baseline = index.baseline();
-    let group = tied(index.comparison(scene, spp, metric), label);
+    let group = index.tied(scene, spp, metric, label);
     let mut out = Vec::new();
     if Some(label) == baseline {
         out.push(format!("At {spp} spp no method beats the unfiltered input in {name}."));
@@ -356,6 +351,9 @@ fn sentences(index: &Index<'_>, scene: &str, spp: u32, metric: &str, label: &str
     }
     if !group.is_empty() {
         out.push(format!("The replicates cannot tell it from {}.", format::list(&group)));
+    }
+    if index.single(scene, spp) {
+        out.push("One replicate: other random seeds may give another order.".into());
     }
     out
 }

@@ -103,9 +103,10 @@ fn level(index: &Index<'_>, scene: &SceneSummary, spp: u32, chosen: bool) -> Lev
     let ranking = index.ranking(&scene.id, spp, metric);
     let cells: Vec<&CellSummary> = ranking.iter().filter_map(|l| index.cell(&scene.id, spp, l)).collect();
     let comparison = index.comparison(&scene.id, spp, metric);
+    let single = index.single(&scene.id, spp);
     let range = forest_range(&cells, metric);
     let rows = cells.iter().map(|cell| {
-        let best = comparison.is_some_and(|c| c.best_group.contains(&cell.label));
+        let best = !single && comparison.is_some_and(|c| c.best_group.contains(&cell.label));
         row(index, cell, metric, best, range)
     });
     let note = comparison.map_or_else(String::new, |c| {
@@ -115,6 +116,10 @@ fn level(index: &Index<'_>, scene: &SceneSummary, spp: u32, chosen: bool) -> Lev
         };
         format!("Marked rows are not distinguishable from the best at 95 % ({family}, Holm).")
     });
+    let note = match single {
+        true => "One replicate: rows cannot be told apart; their order is that of the values.".to_owned(),
+        false => note,
+    };
     let pairs = comparison.map_or_else(Vec::new, |c| c.pairs.iter().map(pair).collect());
     LevelTable {
         spp,
