@@ -125,6 +125,19 @@ impl<const C: usize> BlockTree<C> {
         self.leaves += 1 << height;
     }
 
+    /// Adds all leaves of a tree that went on where this one ended, if that makes the fixed tree: the leaves so far must be
+    /// a multiple of the other's largest subtree. Else nothing changes and the answer is `false`.
+    pub fn append(&mut self, next: &Self) -> bool {
+        let heights = (0..next.levels.len()).rev().filter(|level| next.leaves >> level & 1 == 1);
+        if heights.clone().next().is_some_and(|top| !self.leaves.is_multiple_of(1 << top)) {
+            return false;
+        }
+        for level in heights {
+            self.push_subtree(next.levels[level], level as u32);
+        }
+        true
+    }
+
     /// Everything pushed so far, smallest subtrees merged first.
     #[must_use]
     pub fn total(&self) -> Moments<C> {
@@ -219,6 +232,24 @@ mod tests {
         }
         assert_eq!(at_once.total(), pieces.total());
         assert_eq!(at_once.total().count(), samples.len() as u64);
+    }
+
+    #[test]
+    fn appended_trees_give_equal_bits_or_are_refused() {
+        let samples = uniforms(17, 13 * BLOCK_SAMPLES as usize);
+        let leaves: Vec<Moments<1>> = samples.chunks(BLOCK_SAMPLES as usize).map(sequential).collect();
+        let tree = |range: std::ops::Range<usize>| {
+            let mut tree = BlockTree::default();
+            leaves[range].iter().for_each(|leaf| tree.push(*leaf));
+            tree
+        };
+        let mut joined = tree(0..4);
+        assert!(joined.append(&tree(4..8)) && joined.append(&tree(8..13)));
+        assert_eq!(joined.total(), tree(0..13).total());
+        let mut short = tree(0..3);
+        assert!(!short.append(&tree(3..13)), "8 leaves cannot start at the fourth");
+        assert_eq!(short.total(), tree(0..3).total());
+        assert!(short.append(&BlockTree::default()));
     }
 
     #[test]

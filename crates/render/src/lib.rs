@@ -3,6 +3,7 @@
 //! [`Prepared::new`] checks a scene and builds its acceleration structure once; [`render`] and [`render_reference`] make
 //! frames and references from it. Only what a [`Record`] asks for is gathered, and only what the scene can give.
 
+mod allocate;
 mod bsdf;
 mod bvh;
 mod camera;
@@ -18,10 +19,12 @@ mod progress;
 mod record;
 mod render;
 mod request;
+mod rounds;
 mod sampler;
 mod surface;
 mod tally;
 
+pub use allocate::allocate;
 pub use classes::{ClassMap, OUT_OF_FOCUS, PixelClass, pixel_classes};
 pub use error::RenderError;
 pub use prepare::Prepared;
@@ -29,3 +32,4 @@ pub use progress::{Progress, Silent};
 pub use record::{Keep, Quantity, Record, available};
 pub use render::{render, render_reference};
 pub use request::{DEEPEST, LONGEST_SEQUENCE, REVISION, RenderRequest};
+pub use rounds::Rounds;

@@ -39,7 +39,7 @@ pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Fr
         Samples::uniform(request.spp).with_half_a(Counts::Uniform(even(end) - even(request.sample_start)));
     let mut frame = blank(request, samples, request.sampling);
     plan.fill(&mut frame, planes, request.width, request.height)?;
-    frame.provenance = provenance(request, start, dropped.into_inner());
+    frame.provenance = provenance(request, start.elapsed().as_secs_f64(), dropped.into_inner());
     frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
     Ok(frame)
 }
@@ -86,18 +86,18 @@ pub fn render_reference(
     plan.fill(&mut recorded, rest, request.width, request.height)?;
     reference.frame.features = recorded.features;
     reference.frame.flash = recorded.flash;
-    reference.frame.provenance = provenance(request, start, dropped.into_inner());
+    reference.frame.provenance = provenance(request, start.elapsed().as_secs_f64(), dropped.into_inner());
     reference.frame.provenance.sampler = Some(crate::sampler::name(Sampling::LowDiscrepancy).into());
     reference.frame.provenance.extra.insert("parts".into(), parts.to_string());
     Ok(reference)
 }
 
 /// A frame with a black colour, to be filled.
-fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sampling) -> Frame {
+pub(crate) fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sampling) -> Frame {
     Frame::from_color(Estimate::from_mean(Image::new(request.width, request.height, 3)), samples, sampling)
 }
 
-fn provenance(request: &RenderRequest<'_>, start: Instant, non_finite: u64) -> Provenance {
+pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, non_finite: u64) -> Provenance {
     let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
     let mut extra = std::collections::BTreeMap::new();
     if non_finite > 0 {
@@ -111,14 +111,14 @@ fn provenance(request: &RenderRequest<'_>, start: Instant, non_finite: u64) -> P
         seed: Some(request.seed),
         filter: Some(request.filter),
         camera: Some(eye.provenance(&request.scene.camera)),
-        render_seconds: Some(start.elapsed().as_secs_f64()),
+        render_seconds: Some(seconds),
         render_threads: u32::try_from(rayon::current_num_threads()).ok(),
         extra,
     }
 }
 
 /// Everything that is common to the pixels of one rendering.
-struct Shot<'a> {
+pub(crate) struct Shot<'a> {
     request: &'a RenderRequest<'a>,
     plan: &'a Plan,
     eye: Eye,
@@ -134,7 +134,7 @@ struct Scratch<const C: usize> {
 }
 
 impl<'a> Shot<'a> {
-    fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
+    pub(crate) fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
         let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
         Self { request, plan, eye, parts: None, sobol: SobolTables::new(), non_finite }
     }
@@ -157,25 +157,40 @@ impl<'a> Shot<'a> {
         let request = self.request;
         let extent = Extent { width: request.width, height: request.height, samples: request.spp };
         let scratch = || Scratch::<C> { stack: request.scene.bvh.stack(), tally: Tally::new() };
-        develop(extent, planes, progress, scratch, |scratch, x, y, out| {
-            let key = pixel_key(request.seed, (y * request.width + x) as u64);
-            match (self.parts, request.sampling) {
-                (Some(parts), _) => {
-                    self.reference_pixel::<FEATURES, FLASH, C>(scratch, x, y, key, parts, out)
-                }
-                (None, Sampling::Independent) => {
-                    let sampler = |k| Independent::new(key, k);
-                    let material = self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, self.range(), sampler);
-                    self.plan.write(&mut scratch.tally, material, out);
-                }
-                (None, Sampling::LowDiscrepancy) => {
-                    let halves = [0, 1].map(|half| Sequence::new(key, half));
-                    let sampler = |k: u32| OwenSobol::new(&self.sobol, &halves[(k & 1) as usize], k >> 1);
-                    let material = self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, self.range(), sampler);
-                    self.plan.write(&mut scratch.tally, material, out);
-                }
+        develop(extent, planes, progress, scratch, |scratch, x, y, out| match self.parts {
+            Some(parts) => {
+                let key = pixel_key(request.seed, (y * request.width + x) as u64);
+                self.reference_pixel::<FEATURES, FLASH, C>(scratch, x, y, key, parts, out)
+            }
+            None => {
+                let Scratch { stack, tally } = scratch;
+                tally.clear();
+                let material = self.samples::<FEATURES, FLASH, C>(stack, tally, (x, y), self.range());
+                self.plan.write(tally, material, out);
             }
         })
+    }
+
+    /// Adds a range of a pixel's samples to a tally; returns the material of the first one.
+    pub(crate) fn samples<const FEATURES: bool, const FLASH: bool, const C: usize>(
+        &self,
+        stack: &mut Stack,
+        tally: &mut Tally<C>,
+        (x, y): (usize, usize),
+        range: std::ops::Range<u32>,
+    ) -> i32 {
+        let key = pixel_key(self.request.seed, (y * self.request.width + x) as u64);
+        match self.request.sampling {
+            Sampling::Independent => {
+                let sampler = |k| Independent::new(key, k);
+                self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), range, sampler)
+            }
+            Sampling::LowDiscrepancy => {
+                let halves = [0, 1].map(|half| Sequence::new(key, half));
+                let sampler = |k: u32| OwenSobol::new(&self.sobol, &halves[(k & 1) as usize], k >> 1);
+                self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), range, sampler)
+            }
+        }
     }
 
     fn range(&self) -> std::ops::Range<u32> {
@@ -191,20 +206,34 @@ impl<'a> Shot<'a> {
         samples: std::ops::Range<u32>,
         sampler: impl Fn(u32) -> S,
     ) -> i32 {
-        let (scene, depth, eye) = (self.request.scene, self.request.depth, self.eye.position());
         scratch.tally.clear();
+        let Scratch { stack, tally } = scratch;
+        self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), samples, sampler)
+    }
+
+    /// Adds samples of a pixel to a tally; returns the material of the first one.
+    #[inline(always)]
+    fn extend<S: Sampler, const FEATURES: bool, const FLASH: bool, const C: usize>(
+        &self,
+        stack: &mut Stack,
+        tally: &mut Tally<C>,
+        (x, y): (usize, usize),
+        samples: std::ops::Range<u32>,
+        sampler: impl Fn(u32) -> S,
+    ) -> i32 {
+        let (scene, depth, eye) = (self.request.scene, self.request.depth, self.eye.position());
         let first = samples.start;
         let mut material = -1;
         for k in samples {
             let sampler = sampler(k);
             let (origin, direction) = self.eye.ray(x, y, sampler.group(0));
             let ray = Ray { origin, direction };
-            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, depth, sampler, &mut scratch.stack);
+            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, depth, sampler, stack);
             let (values, finite) = tally_values::<FEATURES, FLASH, C>(&outcome);
             if !finite {
                 self.non_finite.fetch_add(1, Ordering::Relaxed);
             }
-            scratch.tally.push(k, &values);
+            tally.push(k, &values);
             if k == first {
                 material = outcome.material;
             }
