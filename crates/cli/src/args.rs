@@ -41,7 +41,7 @@ pub enum Verb {
     /// List the denoising methods with their parameters
     Methods(List),
     /// List the built-in scenes with what they model
-    Scenes(List),
+    Scenes(Scenes),
 }
 
 impl Default for Verb {
@@ -112,6 +112,12 @@ pub struct Render {
     /// Film filter: `box` over the pixel, or `point` through its centre
     #[arg(long, default_value = "box", value_parser = ["box", "point"])]
     pub filter: String,
+    /// Sampling of the frame: `independent`, or `low-discrepancy` with an own randomisation for each half buffer
+    #[arg(long, default_value = "independent", value_parser = ["independent", "low-discrepancy"], conflicts_with = "parts")]
+    pub sampling: String,
+    /// Index of the first sample: renders a range of a longer run with the same random seed
+    #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "parts")]
+    pub start: u32,
     /// Render a reference instead: this many independently randomised low-discrepancy parts
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
     pub parts: Option<u32>,
@@ -187,15 +193,42 @@ pub struct Report {
     pub viewer_budget: f64,
 }
 
-/// `noisefloor methods` and `noisefloor scenes`.
+/// `noisefloor methods`.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json\n  noisefloor scenes --json"
-)]
+#[command(after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json")]
 pub struct List {
     /// Print a JSON array of objects with `id`
     #[arg(long)]
     pub json: bool,
+}
+
+/// `noisefloor scenes`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor scenes\n  noisefloor scenes --json\n  \
+    noisefloor scenes --sheet scenes.png\n  \
+    noisefloor scenes --sheet scenes.png --size 320x240 --spp 16 --reference-spp 4096")]
+pub struct Scenes {
+    /// Print a JSON array of objects with `id`
+    #[arg(long)]
+    pub json: bool,
+    /// Render every scene and write a contact sheet: the noisy frame beside its reference
+    #[arg(long, value_name = "FILE.png", conflicts_with = "json")]
+    pub sheet: Option<PathBuf>,
+    /// Size of a picture on the sheet
+    #[arg(long, value_name = "WxH", default_value = "160x120", requires = "sheet")]
+    pub size: Size,
+    /// Samples per pixel of the noisy frames
+    #[arg(long, value_name = "N", default_value_t = 64, requires = "sheet", value_parser = clap::value_parser!(u32).range(1..=131072))]
+    pub spp: u32,
+    /// Samples per pixel of the references, a multiple of 8
+    #[arg(long, value_name = "N", default_value_t = 1024, requires = "sheet", value_parser = clap::value_parser!(u32).range(8..=524288))]
+    pub reference_spp: u32,
+    /// Threads [default: all]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
+    /// No progress
+    #[arg(long, short)]
+    pub quiet: bool,
 }
 
 /// `WxH` in pixels.

@@ -28,6 +28,10 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
+    request.sample_start = args.start;
+    if args.sampling == "low-discrepancy" {
+        request.sampling = Sampling::LowDiscrepancy;
+    }
 
     let pixels = (args.size.width * args.size.height) as u64;
     let progress = bar(pixels * u64::from(args.parts.unwrap_or(1)), args.quiet);

@@ -1,10 +1,26 @@
 //! `noisefloor scenes`.
 
+use std::io::Write as _;
+use std::path::Path;
+use std::time::Instant;
+
+use noisefloor_frame::Image;
+use noisefloor_metrics::tone_map;
+use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render, render_reference};
+use noisefloor_report::{SheetEntry, contact_sheet};
 use serde_json::{Value, json};
 
-use crate::args::List;
+use crate::args::Scenes;
+use crate::context::use_threads;
+use crate::progress::bar;
 
-pub fn run(args: &List) -> anyhow::Result<()> {
+/// Pairs beside each other on a contact sheet.
+const COLUMNS: usize = 3;
+
+pub fn run(args: &Scenes) -> anyhow::Result<()> {
+    if let Some(path) = &args.sheet {
+        return sheet(args, path);
+    }
     let mut list = Vec::new();
     for entry in noisefloor_scenes::builtin() {
         let scene = (entry.build)();
@@ -31,5 +47,42 @@ pub fn run(args: &List) -> anyhow::Result<()> {
     if args.json {
         println!("{}", serde_json::to_string_pretty(&list)?);
     }
+    Ok(())
+}
+
+/// Renders every scene and writes the contact sheet.
+fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
+    use_threads(args.threads)?;
+    let scenes = noisefloor_scenes::builtin();
+    let progress = bar(scenes.len() as u64, args.quiet);
+    let mut entries = Vec::new();
+    for entry in scenes {
+        progress.set_message(entry.id);
+        let prepared = Prepared::new(&(entry.build)())?;
+        let noisy = RenderRequest {
+            record: Record::color_only(),
+            ..RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp)
+        };
+        let start = Instant::now();
+        let frame = render(&noisy, &Silent)?;
+        let seconds = start.elapsed().as_secs_f64();
+        // Another random seed: a frame and its reference share no samples.
+        let reference = RenderRequest { spp: args.reference_spp, seed: 1, ..noisy.clone() };
+        let reference = render_reference(&reference, 8, &Silent)?;
+        let shown = |image: &Image| tone_map(image, 0.0);
+        entries.push(SheetEntry {
+            title: format!("{}: {} spp, reference {} spp", entry.id, args.spp, args.reference_spp),
+            images: [shown(&frame.color.mean), shown(reference.mean())],
+        });
+        let rate = frame.pixels() as f64 * f64::from(args.spp) / seconds.max(1e-9) / 1e6;
+        if !args.quiet {
+            progress.suspend(|| println!("{:16} {rate:6.2} million samples/s", entry.id));
+        }
+        progress.inc(1);
+    }
+    progress.finish_and_clear();
+    let png = contact_sheet(&entries, COLUMNS)?;
+    noisefloor_io::write_atomically(path, |out| out.write_all(&png))?;
+    println!("wrote {}", path.display());
     Ok(())
 }

@@ -12,8 +12,10 @@ mod format;
 mod images;
 mod index;
 mod plot;
+mod sheet;
 mod view;
 mod write;
 
 pub use error::ReportError;
+pub use sheet::{SheetEntry, contact_sheet};
 pub use write::{ReportFiles, ReportOptions, write_report, write_report_with};

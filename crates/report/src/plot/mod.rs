@@ -7,7 +7,7 @@ mod chart;
 mod convergence;
 mod coverage;
 mod figure;
-mod font;
+pub(crate) mod font;
 mod speed;
 pub(crate) mod style;
 pub(crate) mod svg;
