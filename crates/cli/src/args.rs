@@ -115,6 +115,9 @@ pub struct Render {
     /// Sampling of the frame: `independent`, or `low-discrepancy` with an own randomisation for each half buffer
     #[arg(long, default_value = "independent", value_parser = ["independent", "low-discrepancy"], conflicts_with = "parts")]
     pub sampling: String,
+    /// Where features are taken: at the `first` hit, or `through-specular` surfaces at the first hit behind mirrors and glass
+    #[arg(long, default_value = "first", value_parser = ["first", "through-specular"])]
+    pub feature_hit: String,
     /// Index of the first sample: renders a range of a longer run with the same random seed
     #[arg(long, value_name = "N", default_value_t = 0, conflicts_with = "parts")]
     pub start: u32,

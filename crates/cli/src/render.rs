@@ -7,7 +7,7 @@ use anyhow::bail;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
 use noisefloor_io::{write_frame, write_reference};
-use noisefloor_render::{Keep, Prepared, Quantity, Record, RenderRequest, available};
+use noisefloor_render::{FeatureHit, Keep, Prepared, Quantity, Record, RenderRequest, available};
 use serde_json::Map;
 
 use crate::args::Render;
@@ -29,6 +29,9 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
     request.sample_start = args.start;
+    if args.feature_hit == FeatureHit::ThroughSpecular.name() {
+        request.feature_hit = FeatureHit::ThroughSpecular;
+    }
     if args.sampling == "low-discrepancy" {
         request.sampling = Sampling::LowDiscrepancy;
     }

@@ -6,6 +6,7 @@ mod parse;
 use std::path::PathBuf;
 
 use noisefloor_frame::{PixelFilter, Sampling};
+use noisefloor_render::FeatureHit;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -40,6 +41,9 @@ pub struct Study {
     pub depth: u32,
     /// Film filter.
     pub filter: PixelFilter,
+    /// Where along a path features are taken.
+    #[serde(default)]
+    pub feature_hit: FeatureHit,
     /// Random seed of the noisy frames; references have their own.
     pub seed: u64,
     /// Sampling of the noisy frames.

@@ -67,12 +67,13 @@ enum Reuse {
     Done,
 }
 
-/// Traces one path of at most `depth` edges. `eye`: centre of the lens, where the eye light sits.
+/// Traces one path of at most `depth` edges; features are taken at the first hit, or with `follow` at the first that is not
+/// specular. `eye`: centre of the lens, where the eye light sits.
 pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
     scene: &Prepared,
     mut ray: Ray,
     eye: Vec3A,
-    depth: u32,
+    (depth, follow): (u32, bool),
     sampler: S,
     stack: &mut Stack,
 ) -> Outcome {
@@ -84,17 +85,24 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
     let mut previous: Option<(f32, Vec3A)> = None;
     let mut reuse = Reuse::Following;
     let mut direct_open = true;
+    // Edge whose end the features belong to, as far as the path has come, and the way to it.
+    let mut feature_edge = 1;
+    let mut way = 0.0f32;
+    let mut tint = Vec3A::ONE;
     let mut edge = 1;
     loop {
         let hit = scene.bvh.closest(&ray, f32::INFINITY, stack);
         let Some(hit) = hit else {
+            if FEATURES && edge == feature_edge {
+                (out.albedo, out.normal, out.depth, out.material) = (Vec3A::ZERO, Vec3A::ZERO, 0.0, -1);
+            }
             out.color += throughput * scene.lights.background(ray.direction, previous);
             break;
         };
         let geometry = &scene.geometry[hit.primitive as usize];
         let surface = &scene.surfaces[geometry.material as usize];
         let last = edge >= depth;
-        let shaded = !last || FEATURES && edge == 1 || FLASH && reuse == Reuse::Following;
+        let shaded = !last || FEATURES && edge == feature_edge || FLASH && reuse == Reuse::Following;
         // At the end of the longest path only emission matters.
         if !(shaded || surface.emits) {
             break;
@@ -107,13 +115,14 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             break;
         }
         let event = surface.scatter.at(at.uv);
-        if FEATURES && edge == 1 {
-            out.albedo = event.albedo();
+        if FEATURES && edge == feature_edge {
+            out.albedo = tint * event.albedo();
             out.normal = at.normal;
-            out.depth = hit.t;
+            way += hit.t;
+            out.depth = way;
             out.material = geometry.material as i32;
         }
-        if FEATURES && edge == 2 {
+        if FEATURES && edge == feature_edge + 1 {
             out.direct = out.color;
             direct_open = false;
         }
@@ -131,6 +140,10 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
                 let u = sampler.group(2 * edge);
                 let (direction, scale) = specular.follow(&at, to_viewer, u[2]);
                 throughput *= specular.tint() * scale;
+                if FEATURES && follow && edge == feature_edge {
+                    tint *= specular.tint();
+                    feature_edge += 1;
+                }
                 squared_index *= scale;
                 if !survives(&mut throughput, squared_index, edge, u[3]) {
                     break;
@@ -156,14 +169,14 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
         if let Some(light) = scene.lights.sample(origin, at.normal, u) {
             let (value, density) = lobe.eval(&at, to_viewer, light.direction);
             if density > 0.0 {
-                if FEATURES && edge == 1 {
+                if FEATURES && edge == feature_edge {
                     out.traced = 1.0;
                 }
                 let shadow = Ray { origin, direction: light.direction };
                 if !scene.bvh.occluded(&shadow, reach(&light), stack) {
                     let weight = power_heuristic(light.density, density) / light.density;
                     out.color += throughput * value * light.radiance * weight;
-                    if FEATURES && edge == 1 {
+                    if FEATURES && edge == feature_edge {
                         out.reached = 1.0;
                     }
                 }

@@ -4,7 +4,8 @@ use noisefloor_frame::FeatureId;
 use noisefloor_scenes::{Scattering, Scene};
 use serde::{Deserialize, Serialize};
 
-/// What can be recorded beside the colour, which always comes with variance and halves.
+/// What can be recorded beside the colour, which always comes with variance and halves. Features belong to the first hit,
+/// or to where [`crate::FeatureHit`] says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]

@@ -11,7 +11,7 @@ use crate::plan::{COLOR, Plan, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_value
 use crate::request::{LONGEST_SEQUENCE, REVISION};
 use crate::sampler::{Independent, OwenSobol, Sampler, Sequence, SobolTables, pixel_key};
 use crate::tally::Tally;
-use crate::{Keep, Progress, RenderError, RenderRequest};
+use crate::{FeatureHit, Keep, Progress, RenderError, RenderRequest};
 
 /// Sequences of a reference are numbered from here on, those of a frame from 0: equal seeds do not make a frame a part
 /// of its own reference.
@@ -102,6 +102,9 @@ pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, non_finite: 
     let mut extra = std::collections::BTreeMap::new();
     if non_finite > 0 {
         extra.insert("non_finite_samples".into(), non_finite.to_string());
+    }
+    if request.feature_hit != FeatureHit::First {
+        extra.insert("feature_hit".into(), request.feature_hit.name().into());
     }
     Provenance {
         scene: Some(request.scene.id().into()),
@@ -222,13 +225,14 @@ impl<'a> Shot<'a> {
         sampler: impl Fn(u32) -> S,
     ) -> i32 {
         let (scene, depth, eye) = (self.request.scene, self.request.depth, self.eye.position());
+        let follow = self.request.feature_hit == FeatureHit::ThroughSpecular;
         let first = samples.start;
         let mut material = -1;
         for k in samples {
             let sampler = sampler(k);
             let (origin, direction) = self.eye.ray(x, y, sampler.group(0));
             let ray = Ray { origin, direction };
-            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, depth, sampler, stack);
+            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, (depth, follow), sampler, stack);
             let (values, finite) = tally_values::<FEATURES, FLASH, C>(&outcome);
             if !finite {
                 self.non_finite.fetch_add(1, Ordering::Relaxed);

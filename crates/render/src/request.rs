@@ -1,6 +1,6 @@
 use noisefloor_frame::{PixelFilter, Sampling};
 
-use crate::{Prepared, Record, RenderError};
+use crate::{FeatureHit, Prepared, Record, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
 pub const REVISION: u32 = 3;
@@ -35,6 +35,8 @@ pub struct RenderRequest<'a> {
     pub sampling: Sampling,
     /// What to record beside the colour.
     pub record: Record,
+    /// Where along a path the features are taken.
+    pub feature_hit: FeatureHit,
 }
 
 impl<'a> RenderRequest<'a> {
@@ -52,6 +54,7 @@ impl<'a> RenderRequest<'a> {
             filter: PixelFilter::Box,
             sampling: Sampling::Independent,
             record: Record::Available,
+            feature_hit: FeatureHit::First,
         }
     }
 

@@ -125,7 +125,7 @@ impl<'a> Rounds<'a> {
         let same = std::ptr::eq(a.scene, b.scene)
             && (a.width, a.height, a.seed, a.depth) == (b.width, b.height, b.seed, b.depth)
             && (a.filter, a.sampling) == (b.filter, b.sampling)
-            && a.record == b.record;
+            && (&a.record, a.feature_hit) == (&b.record, b.feature_hit);
         if !same {
             let expected = "the same scene, size, random seed, depth, filter, sampling and record".to_owned();
             return Err(wrong("range", "of another request".into(), expected));

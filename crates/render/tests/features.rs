@@ -9,7 +9,7 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Flash, Frame, Image, PixelFilter};
 use noisefloor_render::{
-    Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, Silent, available,
+    FeatureHit, Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, Silent, available,
     pixel_classes, render,
 };
 use noisefloor_scenes::{Lens, Scattering, Scene};
@@ -237,4 +237,63 @@ fn classes_follow_the_first_hit() {
     assert_eq!(classes(&scene), expected);
     scene.camera.lens = Some(Lens { radius: 2.0, focus_distance: 2.0 });
     assert_eq!(classes(&scene)[0], PixelClass::OutOfFocus);
+}
+
+/// A mirror floor below a wall: the ray goes 2 units down to the mirror and 3 on to the wall.
+fn mirrored() -> Scene {
+    let eye = Vec3::new(0.0, 1.2, -1.6);
+    let mut scene = empty(camera(eye, Vec3::ZERO, 1.0));
+    let mirror = add_material(&mut scene, Scattering::Mirror { reflectance: Vec3::new(0.9, 0.5, 0.3) }, 0.0);
+    let wall = add_material(&mut scene, diffuse_rgb(Vec3::new(0.8, 0.6, 0.4)), 0.0);
+    quad(&mut scene, Vec3::new(-9.0, 0.0, -9.0), 18.0 * Vec3::Z, 18.0 * Vec3::X, mirror);
+    // The reflected ray runs along (0, 0.6, 0.8): it meets z = 2.4 after 3 units.
+    quad(&mut scene, Vec3::new(-9.0, -9.0, 2.4), 18.0 * Vec3::Y, 18.0 * Vec3::X, wall);
+    with_sky(scene, 1.0)
+}
+
+#[test]
+fn features_are_taken_behind_mirrors_if_asked_and_colour_does_not_change() {
+    let scene = Prepared::new(&mirrored()).unwrap();
+    let first = RenderRequest { filter: PixelFilter::Point, ..RenderRequest::new(&scene, 1, 1, 64) };
+    let through = RenderRequest { feature_hit: FeatureHit::ThroughSpecular, ..first.clone() };
+    let (first, through) = (render(&first, &Silent).unwrap(), render(&through, &Silent).unwrap());
+    assert!(first.color == through.color && first.flash == through.flash);
+    let value = |frame: &Frame, id: FeatureId| frame.features[&id].mean.data().to_vec();
+    let near = |found: Vec<f32>, expected: &[f32]| {
+        assert!(
+            found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-4),
+            "{found:?}, expected {expected:?}"
+        );
+    };
+    near(value(&first, FeatureId::Depth), &[2.0]);
+    near(value(&first, FeatureId::Albedo), &[0.9, 0.5, 0.3]);
+    near(value(&first, FeatureId::Visibility), &[0.0]);
+    near(value(&through, FeatureId::Depth), &[5.0]);
+    near(value(&through, FeatureId::Albedo), &[0.72, 0.3, 0.12]);
+    near(value(&through, FeatureId::Normal), &[0.0, 0.0, -1.0]);
+    near(value(&through, FeatureId::Material), &[1.0]);
+    assert!(value(&through, FeatureId::Visibility)[0] > 0.0, "shadow rays start at the wall");
+    let direct = value(&through, FeatureId::Direct);
+    assert!(direct[0] > 0.0 && direct != value(&first, FeatureId::Direct), "{direct:?}");
+    assert_eq!(through.provenance.extra["feature_hit"], "through-specular");
+    assert!(!first.provenance.extra.contains_key("feature_hit"));
+}
+
+#[test]
+fn what_a_mirror_shows_of_the_sky_is_background_and_without_mirrors_nothing_changes() {
+    let through = |scene: &Scene, depth: u32| {
+        let scene = Prepared::new(scene).unwrap();
+        let first = RenderRequest { depth, ..RenderRequest::new(&scene, 12, 9, 8) };
+        let through = RenderRequest { feature_hit: FeatureHit::ThroughSpecular, ..first.clone() };
+        (render(&first, &Silent).unwrap().features, render(&through, &Silent).unwrap().features)
+    };
+    let (first, followed) = through(&cornell(), 8);
+    assert!(first == followed, "no specular surface");
+    let mut open = mirrored();
+    open.meshes.truncate(1);
+    let (_, followed) = through(&open, 8);
+    assert!(followed[&FeatureId::Depth].mean.data().iter().all(|d| *d == 0.0));
+    assert!(followed[&FeatureId::Material].mean.data().iter().all(|m| *m == -1.0));
+    let (first, followed) = through(&open, 1);
+    assert!(first == followed, "a path that ends on the mirror has its features");
 }

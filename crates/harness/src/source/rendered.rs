@@ -6,7 +6,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use noisefloor_frame::{Estimate, Flash, Frame, Image, PixelFilter, Reference, Sampling};
-use noisefloor_render::{Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, render};
+use noisefloor_render::{
+    FeatureHit, Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, render,
+};
 use serde_json::{Value, json};
 
 use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
@@ -22,6 +24,7 @@ pub(super) struct Rendered {
     height: usize,
     depth: u32,
     filter: PixelFilter,
+    feature_hit: FeatureHit,
     sampling: Sampling,
     record: BTreeMap<Quantity, Keep>,
     reference: ReferenceSpec,
@@ -50,10 +53,15 @@ pub(super) fn open(
     let (depth, filter) = (study.depth, study.filter);
     // Everything that a sample's value depends on, whoever asks for it.
     let look = |sampling: Sampling, record: &BTreeMap<Quantity, Keep>| {
-        Ok::<_, HarnessError>(json!({
+        let mut look = json!({
             "scene": content_hash(&scene), "renderer": fingerprint(&prepared, depth, filter, sampling, record)?,
             "width": width, "height": height, "depth": depth, "filter": filter, "sampling": sampling,
-        }))
+        });
+        // Frames without features are the same for all, and those of before had no such choice.
+        if study.feature_hit != FeatureHit::First && !record.is_empty() {
+            look["feature_hit"] = study.feature_hit.name().into();
+        }
+        Ok::<_, HarnessError>(look)
     };
     let noisy = look(study.sampling, &record)?;
     let clean = look(reference.sampling, &BTreeMap::new())?;
@@ -79,6 +87,7 @@ pub(super) fn open(
         ("seed", study.seed.to_string()),
         ("path depth", study.depth.to_string()),
         ("film filter", study.filter.name().to_owned()),
+        ("features taken", study.feature_hit.name().to_owned()),
         ("sampling", study.sampling.name().to_owned()),
         ("recorded", record.keys().map(|q| q.name()).collect::<Vec<_>>().join(", ")),
     ];
@@ -100,6 +109,7 @@ pub(super) fn open(
             height,
             depth: study.depth,
             filter: study.filter,
+            feature_hit: study.feature_hit,
             sampling: study.sampling,
             record,
             reference,
@@ -163,6 +173,7 @@ impl Rendered {
             record,
             depth: self.depth,
             filter: self.filter,
+            feature_hit: self.feature_hit,
             ..RenderRequest::new(&self.prepared, self.width, self.height, spp)
         }
     }

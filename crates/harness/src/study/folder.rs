@@ -3,6 +3,7 @@ use std::path::Path;
 
 use noisefloor_frame::{PixelFilter, Reference, Sampling};
 use noisefloor_io::{ReadOptions, scan_scenes};
+use noisefloor_render::FeatureHit;
 
 use crate::error::HarnessError;
 use crate::study::check::{Lines, check};
@@ -57,6 +58,7 @@ impl Study {
             height: folders[0].reference_info.height,
             depth: 8,
             filter: PixelFilter::Box,
+            feature_hit: FeatureHit::First,
             seed: 0,
             sampling: Sampling::Independent,
             reference: ReferenceSpec {

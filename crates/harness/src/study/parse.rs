@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{PixelFilter, Sampling};
+use noisefloor_render::FeatureHit;
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use toml::Spanned;
@@ -33,6 +34,8 @@ struct Raw {
     depth: u32,
     #[serde(default = "default_filter")]
     filter: PixelFilter,
+    #[serde(default)]
+    feature_hit: FeatureHit,
     #[serde(default)]
     seed: u64,
     #[serde(default = "default_sampling")]
@@ -170,6 +173,7 @@ impl Study {
             height: raw.height,
             depth: raw.depth,
             filter: raw.filter,
+            feature_hit: raw.feature_hit,
             seed: raw.seed,
             sampling: raw.sampling,
             reference,
