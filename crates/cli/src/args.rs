@@ -85,7 +85,9 @@ pub struct Run {
 #[command(
     after_help = "Examples:\n  noisefloor render cornell --spp 64 --seed 1 --size 640x480 -o cornell.exr\n  \
     noisefloor render toaster --spp 16 --record albedo,normal,flash --filter point -o toaster.exr\n  \
-    noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference"
+    noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference\n  \
+    noisefloor render cornell --spp 64 --feature-hit through-specular -o behind-the-mirror.exr\n  \
+    noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr"
 )]
 pub struct Render {
     /// Scene id; see `noisefloor scenes`
@@ -109,6 +111,9 @@ pub struct Render {
     /// Longest path, in edges from the eye to a light: 2 is direct light
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub depth: u32,
+    /// Light the scene by this OpenEXR image in latitude and longitude instead of its own sky; the first row is straight up
+    #[arg(long, value_name = "FILE")]
+    pub environment: Option<PathBuf>,
     /// Film filter: `box` over the pixel, or `point` through its centre
     #[arg(long, default_value = "box", value_parser = ["box", "point"])]
     pub filter: String,

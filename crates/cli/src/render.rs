@@ -2,12 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
+use std::path::Path;
+use std::sync::Arc;
 
 use anyhow::bail;
+use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
 use noisefloor_io::{write_frame, write_reference};
 use noisefloor_render::{FeatureHit, Keep, Prepared, Quantity, Record, RenderRequest, available};
+use noisefloor_scenes::{EnvironmentMap, Sky};
 use serde_json::Map;
 
 use crate::args::Render;
@@ -16,7 +20,10 @@ use crate::progress::bar;
 
 pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     use_threads(args.threads)?;
-    let scene = (noisefloor_scenes::find(&args.scene)?.build)();
+    let mut scene = (noisefloor_scenes::find(&args.scene)?.build)();
+    if let Some(path) = &args.environment {
+        scene.sky = Some(Sky::Map(Arc::new(environment(path)?)));
+    }
     let can = available(&scene);
     let record = match &args.record {
         None => useful(context, &can),
@@ -43,15 +50,21 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
         progress.inc(finished as u64);
         ControlFlow::Continue(())
     };
+    let lit_by = args.environment.as_ref().map(|path| {
+        let name = path.file_name().unwrap_or(path.as_os_str());
+        ("environment".to_owned(), name.to_string_lossy().into_owned())
+    });
     let seconds = match args.parts {
         Some(parts) => {
             request.sampling = Sampling::LowDiscrepancy;
-            let reference = noisefloor_render::render_reference(&request, parts, &advance)?;
+            let mut reference = noisefloor_render::render_reference(&request, parts, &advance)?;
+            reference.frame.provenance.extra.extend(lit_by);
             write_reference(&args.output, &reference)?;
             reference.frame.provenance.render_seconds
         }
         None => {
-            let frame = noisefloor_render::render(&request, &advance)?;
+            let mut frame = noisefloor_render::render(&request, &advance)?;
+            frame.provenance.extra.extend(lit_by);
             write_frame(&args.output, &frame)?;
             frame.provenance.render_seconds
         }
@@ -64,6 +77,18 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
         println!("wrote {}{rate}", args.output.display());
     }
     Ok(())
+}
+
+/// An image as light from infinitely far away.
+fn environment(path: &Path) -> anyhow::Result<EnvironmentMap> {
+    let image = noisefloor_io::read_image(path)?;
+    let plane = |c: usize| image.plane(if image.channels() >= 3 { c } else { 0 });
+    let texels = plane(0).iter().zip(plane(1)).zip(plane(2));
+    Ok(EnvironmentMap {
+        width: image.width(),
+        height: image.height(),
+        texels: texels.map(|((r, g), b)| Vec3::new(*r, *g, *b)).collect(),
+    })
 }
 
 /// Everything that some registered method needs or uses, as far as the scene can give it.

@@ -57,6 +57,37 @@ fn a_frame_is_rendered_denoised_and_compared() {
 }
 
 #[test]
+fn what_is_rendered_can_be_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let frame = |extra: &[&str]| {
+        let start = ["render", "cornell", "--spp", "8", "--size", "24x18", "-o", "f.exr"];
+        done(at, &[&start[..], extra].concat());
+        noisefloor::io::read_frame(at.join("f.exr"), &noisefloor::io::ReadOptions::default()).unwrap()
+    };
+    let plain = frame(&[]);
+    let through = frame(&["--feature-hit", "through-specular"]);
+    assert_eq!(plain.color, through.color);
+    assert_ne!(plain.features, through.features);
+    assert_eq!(through.provenance.extra["feature_hit"], "through-specular");
+    let later = frame(&["--start", "8"]);
+    assert_ne!(plain.color.mean, later.color.mean);
+    let even = frame(&["--sampling", "low-discrepancy"]);
+    assert_eq!(even.sampling.name(), "low-discrepancy");
+    // The frame itself serves as a sky.
+    done(
+        at,
+        &["render", "outdoor", "--spp", "2", "--size", "24x18", "--environment", "f.exr", "-o", "o.exr"],
+    );
+    let lit = noisefloor::io::read_frame(at.join("o.exr"), &noisefloor::io::ReadOptions::default()).unwrap();
+    assert_eq!(lit.provenance.extra["environment"], "f.exr");
+    assert!(
+        refused(at, &["render", "cornell", "--spp", "2", "--environment", "no.exr", "-o", "x.exr"])
+            .contains("no.exr")
+    );
+}
+
+#[test]
 fn equal_seeds_give_equal_files_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -8,6 +8,7 @@ mod bsdf;
 mod bvh;
 mod camera;
 mod classes;
+mod environment;
 mod error;
 mod feature_hit;
 mod film;

@@ -1,10 +1,12 @@
 //! Light sources: sampling them, and the density with which a direction that was sampled otherwise would have been.
 
 use std::f32::consts::{FRAC_1_PI, PI, TAU};
+use std::sync::Arc;
 
-use glam::Vec3A;
+use glam::{Vec3, Vec3A};
 use noisefloor_scenes::Sky;
 
+use crate::environment::Environment;
 use crate::math::{cosine_hemisphere, luminance, tangents, turn};
 
 /// A source with the probability that it is chosen.
@@ -19,7 +21,16 @@ enum Kind {
     Triangle { origin: Vec3A, edge1: Vec3A, edge2: Vec3A, normal: Vec3A, inverse_area: f32, emission: Vec3A },
     Sphere { center: Vec3A, radius: f32, emission: Vec3A },
     Sun(SunDisc),
-    Sky(Sky),
+    Sky(Gradient),
+    Environment(Arc<Environment>),
+}
+
+/// A sky whose radiance is a formula of the direction's height; constant ones are a blend of equals.
+#[derive(Debug, Clone, Copy)]
+pub struct Gradient {
+    horizon: Vec3A,
+    rise: Vec3A,
+    ground: Vec3A,
 }
 
 /// The sun with what its sampling needs.
@@ -51,7 +62,8 @@ pub struct Lights {
     lights: Vec<Light>,
     /// Running sums of the chances; the last is 1.
     cumulative: Vec<f32>,
-    sky: Option<(Sky, f32)>,
+    sky: Option<(Gradient, f32)>,
+    environment: Option<(Arc<Environment>, f32)>,
     sun: Option<(SunDisc, f32)>,
 }
 
@@ -87,29 +99,29 @@ impl SunDisc {
     }
 }
 
-/// Radiance of the sky in a direction.
-#[inline]
-pub fn sky_radiance(sky: &Sky, w: Vec3A) -> Vec3A {
-    match sky {
-        Sky::Constant(radiance) => (*radiance).into(),
-        Sky::Gradient { horizon, zenith, ground } => {
-            if w.y < 0.0 {
-                (*ground).into()
-            } else {
-                Vec3A::from(*horizon) + Vec3A::from(*zenith - *horizon) * w.y
-            }
-        }
+impl Gradient {
+    fn new(horizon: Vec3, zenith: Vec3, ground: Vec3) -> Self {
+        Self { horizon: horizon.into(), rise: (zenith - horizon).into(), ground: ground.into() }
+    }
+
+    #[inline]
+    fn radiance(&self, w: Vec3A) -> Vec3A {
+        if w.y < 0.0 { self.ground } else { self.horizon + self.rise * w.y }
+    }
+
+    /// Half the sky's luminous flux through a sphere of radius 1; the other half is left to directions that surfaces choose.
+    fn power(&self) -> f32 {
+        // The mean over the upper hemisphere of a blend by the cosine is the middle.
+        let mean = (self.horizon + (self.horizon + self.rise)) * 0.25 + self.ground * 0.5;
+        0.5 * luminance(mean) * FLUX
     }
 }
 
-/// Half the sky's luminous flux through a sphere of radius 1; the other half is left to directions that surfaces choose.
-fn sky_power(sky: &Sky) -> f32 {
-    let mean = match sky {
-        Sky::Constant(radiance) => *radiance,
-        // The mean over the upper hemisphere of a blend by the cosine is the middle.
-        Sky::Gradient { horizon, zenith, ground } => (*horizon + *zenith) * 0.25 + *ground * 0.5,
-    };
-    0.5 * luminance(mean.into()) * 4.0 * PI * PI
+/// Flux of radiance 1 from everywhere through a sphere of radius 1.
+const FLUX: f32 = 4.0 * PI * PI;
+
+fn formula(sky: Gradient) -> (Kind, f32) {
+    (Kind::Sky(sky), sky.power())
 }
 
 /// Collects sources with their powers.
@@ -144,14 +156,25 @@ impl LightsBuilder {
     }
 
     /// Adds the distant sources and fixes the chances. `radius`: of the scene.
-    pub fn finish(mut self, sun: Option<SunDisc>, sky: Option<Sky>, radius: f32) -> Lights {
+    pub fn finish(mut self, sun: Option<SunDisc>, sky: Option<&Sky>, radius: f32) -> Lights {
         let disc = PI * radius * radius;
         if let Some(sun) = sun {
             let irradiance = sun.radiance * (TAU * sun.height);
             self.sources.push((Kind::Sun(sun), disc * luminance(irradiance)));
         }
         if let Some(sky) = sky {
-            self.sources.push((Kind::Sky(sky), radius * radius * sky_power(&sky)));
+            let (kind, power) = match sky {
+                Sky::Constant(radiance) => formula(Gradient::new(*radiance, *radiance, *radiance)),
+                Sky::Gradient { horizon, zenith, ground } => {
+                    formula(Gradient::new(*horizon, *zenith, *ground))
+                }
+                Sky::Map(map) => {
+                    let environment = Environment::new(Arc::clone(map));
+                    let power = environment.mean_luminance() * FLUX;
+                    (Kind::Environment(Arc::new(environment)), power)
+                }
+            };
+            self.sources.push((kind, radius * radius * power));
         }
         let total: f64 = self.sources.iter().map(|s| f64::from(s.1)).sum();
         let mut out = Lights::default();
@@ -161,9 +184,10 @@ impl LightsBuilder {
             let chance = if total > 0.0 { f64::from(power) / total } else { 0.0 };
             sum += chance;
             let chance = chance as f32;
-            match kind {
-                Kind::Sun(sun) => out.sun = Some((sun, chance)),
-                Kind::Sky(sky) => out.sky = Some((sky, chance)),
+            match &kind {
+                Kind::Sun(sun) => out.sun = Some((*sun, chance)),
+                Kind::Sky(sky) => out.sky = Some((*sky, chance)),
+                Kind::Environment(sky) => out.environment = Some((Arc::clone(sky), chance)),
                 _ => {}
             }
             out.lights.push(Light { kind, chance });
@@ -213,7 +237,7 @@ impl Lights {
                         1.0 / (TAU * cap_height(radius * radius / squared))
                     }
                 }
-                Kind::Sun(_) | Kind::Sky(_) => 0.0,
+                Kind::Sun(_) | Kind::Sky(_) | Kind::Environment(_) => 0.0,
             }
     }
 
@@ -227,7 +251,13 @@ impl Lights {
                 let rival = chance * w.dot(normal).max(0.0) * FRAC_1_PI;
                 crate::math::power_heuristic(density, rival)
             });
-            sum += sky_radiance(sky, w) * weight;
+            sum += sky.radiance(w) * weight;
+        }
+        if let Some((sky, chance)) = &self.environment {
+            let (radiance, own) = sky.look(w);
+            let weight =
+                previous.map_or(1.0, |(density, _)| crate::math::power_heuristic(density, chance * own));
+            sum += radiance * weight;
         }
         if let Some((sun, chance)) = &self.sun
             && sun.contains(w)
@@ -290,9 +320,13 @@ impl Light {
                 Some(LightSample {
                     direction,
                     distance: f32::INFINITY,
-                    radiance: sky_radiance(sky, direction),
+                    radiance: sky.radiance(direction),
                     density: cos * FRAC_1_PI,
                 })
+            }
+            Kind::Environment(sky) => {
+                let (direction, radiance, density) = sky.sample(u, v);
+                Some(LightSample { direction, distance: f32::INFINITY, radiance, density })
             }
         }
     }

@@ -254,7 +254,9 @@ mod tests {
     use crate::sampler::Independent;
     use glam::Vec3;
     use noisefloor_frame::Moments;
-    use noisefloor_scenes::{CameraSpec, Color, Material, Mesh, Scattering, Scene, Sky, Sphere, Sun};
+    use noisefloor_scenes::{
+        CameraSpec, Color, EnvironmentMap, Material, Mesh, Scattering, Scene, Sky, Sphere, Sun,
+    };
 
     /// Every kind of light over a point at the origin with normal +Y.
     fn scene(kind: &str) -> Prepared {
@@ -297,6 +299,11 @@ mod tests {
                 let irradiance = Vec3::splat(2.0);
                 scene.sun =
                     Some(Sun { direction: Vec3::new(0.6, 0.8, 0.0), half_angle_degrees: 9.0, irradiance });
+            }
+            "map" => {
+                let texels = (0..128).map(|i| Vec3::splat(if i == 43 { 40.0 } else { (i % 7) as f32 }));
+                let map = EnvironmentMap { width: 16, height: 8, texels: texels.collect() };
+                scene.sky = Some(Sky::Map(map.into()));
             }
             _ => {
                 scene.sky =
@@ -361,7 +368,7 @@ mod tests {
             Lobe::Diffuse { albedo: Vec3A::splat(0.7) },
             Lobe::Conductor { f0: Vec3A::splat(0.8), alpha: 0.6 },
         ];
-        for kind in ["triangle", "sphere", "sun", "sky"] {
+        for kind in ["triangle", "sphere", "sun", "sky", "map"] {
             for lobe in lobes {
                 let scene = scene(kind);
                 let by = |strategy| {

@@ -57,7 +57,7 @@ impl Prepared {
             let half_angle = sun.half_angle_degrees.to_radians();
             SunDisc::new(Vec3A::from(sun.direction).normalize(), half_angle, sun.irradiance.into())
         });
-        let lights = parts.lights.finish(sun, scene.sky, radius);
+        let lights = parts.lights.finish(sun, scene.sky.as_ref(), radius);
         Ok(Self {
             id: scene.id.into(),
             camera: scene.camera,
@@ -286,11 +286,17 @@ impl Check {
             })?;
             self.radiance(sun.irradiance, || "sun irradiance".into())?;
         }
-        match scene.sky {
-            Some(Sky::Constant(radiance)) => self.radiance(radiance, || "sky".into()),
+        match &scene.sky {
+            Some(Sky::Constant(radiance)) => self.radiance(*radiance, || "sky".into()),
             Some(Sky::Gradient { horizon, zenith, ground }) => [horizon, zenith, ground]
                 .into_iter()
-                .try_for_each(|radiance| self.radiance(radiance, || "sky".into())),
+                .try_for_each(|radiance| self.radiance(*radiance, || "sky".into())),
+            Some(Sky::Map(map)) => match map.problem() {
+                Some((what, value)) => {
+                    self.fail(what, value, "as many texels as width × height, each finite and not negative")
+                }
+                None => Ok(()),
+            },
             None => Ok(()),
         }
     }

@@ -11,7 +11,7 @@ use noisefloor_frame::Sampling;
 use noisefloor_render::{
     Prepared, RenderError, RenderRequest, Silent, pixel_classes, render, render_reference,
 };
-use noisefloor_scenes::{Lens, Scattering, Scene, Sky, Sun};
+use noisefloor_scenes::{EnvironmentMap, Lens, Scattering, Scene, Sky, Sun};
 
 /// A valid scene that a test then spoils; the message of the error.
 fn spoil(change: impl FnOnce(&mut Scene)) -> String {
@@ -28,7 +28,7 @@ fn an_empty_scene_is_refused() {
 
 #[test]
 fn the_offending_number_is_named() {
-    let cases: [(&str, String); 12] = [
+    let cases: [(&str, String); 13] = [
         ("mesh 1, vertex 2", spoil(|s| s.meshes[1].positions[2].y = f32::NAN)),
         ("mesh 3, triangle 1, vertex index is 9", spoil(|s| s.meshes[3].triangles[1][0] = 9)),
         ("mesh 0, material is 77", spoil(|s| s.meshes[0].material = 77)),
@@ -40,6 +40,13 @@ fn the_offending_number_is_named() {
         ("sphere 0, radius is -1", spoil(|s| sphere(s, Vec3::ZERO, -1.0, 0))),
         ("camera up", spoil(|s| s.camera.up = s.camera.target - s.camera.eye)),
         ("focus distance", spoil(|s| s.camera.lens = Some(Lens { radius: 1.0, focus_distance: 0.0 }))),
+        (
+            "texel (1, 0)",
+            spoil(|s| {
+                let texels = vec![Vec3::ONE, Vec3::splat(-1.0)];
+                s.sky = Some(Sky::Map(EnvironmentMap { width: 2, height: 1, texels }.into()));
+            }),
+        ),
         ("sky", spoil(|s| s.sky = Some(Sky::Constant(Vec3::splat(-1.0))))),
     ];
     for (expected, message) in cases {

@@ -8,7 +8,7 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::{Frame, PixelFilter};
 use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
-use noisefloor_scenes::{Scattering, Scene, Sky};
+use noisefloor_scenes::{EnvironmentMap, Scattering, Scene, Sky};
 
 /// A floor at y = 0 seen at the origin from the side.
 fn floor(scattering: Scattering) -> Scene {
@@ -72,6 +72,29 @@ fn a_gradient_sky_gives_its_cosine_integral() {
         Some(Sky::Gradient { horizon: Vec3::ONE, zenith: Vec3::splat(3.0), ground: Vec3::splat(9.0) });
     // ∫(1 + 2cos)·cos dω = π + 4π/3 over the upper hemisphere.
     assert_radiance(&at_origin(&scene, 4096, 2), 0.5 * (1.0 + 4.0 / 3.0), 0.01);
+}
+
+#[test]
+fn an_environment_map_gives_its_cosine_integral() {
+    // Rows of 4: radiance L_k between the angles kπ/4 and (k+1)π/4 from straight up. A diffuse floor sees the upper two,
+    // each with the share sin²(θ₂) − sin²(θ₁) = ½ of the cosine integral π.
+    let rows = [Vec3::new(8.0, 1.0, 0.0), Vec3::new(2.0, 3.0, 0.5), Vec3::splat(9.0), Vec3::splat(9.0)];
+    let texels: Vec<Vec3> = rows.iter().flat_map(|row| [*row; 6]).collect();
+    let mut scene = floor(diffuse(0.5));
+    scene.sky = Some(Sky::Map(EnvironmentMap { width: 6, height: 4, texels }.into()));
+    let frame = at_origin(&scene, 16_384, 2);
+    for (channel, truth) in [2.5, 1.0, 0.125].into_iter().enumerate() {
+        let (mean, error) = average(&frame, channel);
+        assert!(error < 0.02 * truth && (mean - truth).abs() < 4.5 * error, "{mean} ± {error}, {truth}");
+    }
+}
+
+#[test]
+fn a_white_environment_map_is_a_white_sky() {
+    let mut scene = floor(diffuse(0.4));
+    let map = EnvironmentMap { width: 8, height: 4, texels: vec![Vec3::splat(2.0); 32] };
+    scene.sky = Some(Sky::Map(map.into()));
+    assert_radiance(&at_origin(&scene, 16_384, 2), 0.8, 0.01);
 }
 
 #[test]

@@ -125,12 +125,20 @@ impl Scene {
             )?;
             self.radiance(|| "the sun's irradiance".into(), sun.irradiance)?;
         }
-        match self.sky {
+        match &self.sky {
             None => Ok(()),
-            Some(crate::Sky::Constant(c)) => self.radiance(|| "the sky".into(), c),
+            Some(crate::Sky::Constant(c)) => self.radiance(|| "the sky".into(), *c),
             Some(crate::Sky::Gradient { horizon, zenith, ground }) => {
-                [horizon, zenith, ground].into_iter().try_for_each(|c| self.radiance(|| "the sky".into(), c))
+                [horizon, zenith, ground].into_iter().try_for_each(|c| self.radiance(|| "the sky".into(), *c))
             }
+            Some(crate::Sky::Map(map)) => map.problem().map_or(Ok(()), |(what, value)| {
+                Err(SceneError::OutOfRange {
+                    scene: self.id,
+                    what,
+                    value,
+                    allowed: crate::environment::ALLOWED,
+                })
+            }),
         }
     }
 

@@ -12,6 +12,7 @@ mod assemble;
 mod builtin;
 mod catalog;
 mod check;
+mod environment;
 pub mod hash;
 mod material;
 mod scene;
@@ -20,6 +21,7 @@ pub mod texture;
 
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};
 pub use check::SceneError;
+pub use environment::EnvironmentMap;
 pub use scene::{
     CameraSpec, Color, Lens, Material, MaterialIndex, Mesh, Models, Scattering, Scene, Sky, Sphere, Sun,
 };

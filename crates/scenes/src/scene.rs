@@ -1,7 +1,9 @@
+use std::sync::Arc;
+
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::Texture;
+use crate::{EnvironmentMap, Texture};
 
 /// Index into [`Scene::materials`].
 pub type MaterialIndex = usize;
@@ -115,7 +117,7 @@ pub struct Sun {
 }
 
 /// Light from infinitely far away, seen wherever nothing is hit.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Sky {
     /// The same radiance from everywhere.
     Constant(Vec3),
@@ -128,6 +130,8 @@ pub enum Sky {
         /// Radiance from below.
         ground: Vec3,
     },
+    /// An image by direction, sampled in proportion to its luminance.
+    Map(Arc<EnvironmentMap>),
 }
 
 /// What a scene models: nothing else is built, traced or stored for it.
@@ -147,6 +151,8 @@ pub struct Models {
     pub sun: bool,
     /// A sky.
     pub sky: bool,
+    /// A sky that is an image, sampled by importance.
+    pub environment_map: bool,
 }
 
 /// Everything a renderer needs to know, and nothing about how it renders.
@@ -187,6 +193,7 @@ impl Scene {
             area_lights: any(&|m| m.emission != Vec3::ZERO),
             sun: self.sun.is_some(),
             sky: self.sky.is_some(),
+            environment_map: matches!(self.sky, Some(Sky::Map(_))),
         }
     }
 
