@@ -67,10 +67,32 @@ pub fn panel_irradiance(half: f64, height: f64) -> f64 {
     4.0 * a * a.atan()
 }
 
+/// A wide diffuse plane at height 0 seen from above, lit by a ball of radiance 1 and radius `radius` whose centre stands `height` (at least `radius`)
+/// above the point (−[`BALL_OFFSET`], 0, 0), outside of the image. Irradiance: [`ball_irradiance`].
+#[must_use]
+pub fn plane_under_ball(albedo: impl Into<Color>, radius: f32, height: f32) -> Scene {
+    let mut scene = plane("gradient", "Plane under a ball lamp", albedo);
+    let lamp = scene.add_material(Material::emitter("lamp", Vec3::ONE));
+    scene.add_sphere(Vec3::new(-BALL_OFFSET, height, 0.0), radius, lamp);
+    scene
+}
+
+/// Distance along X from the middle of the image of [`plane_under_ball`] to the foot of its lamp.
+pub const BALL_OFFSET: f32 = 2.2;
+
+/// Irradiance from a ball of radiance 1 that is wholly above the receiver's plane: π times the squared sine of its half
+/// angle times the cosine towards its centre. `aside`: distance in the plane from the centre's foot.
+#[must_use]
+pub fn ball_irradiance(radius: f64, height: f64, aside: f64) -> f64 {
+    let distance = height.hypot(aside);
+    std::f64::consts::PI * (radius / distance).powi(2) * (height / distance)
+}
+
 fn plane(id: &'static str, title: &'static str, albedo: impl Into<Color>) -> Scene {
     let mut scene = Scene::empty(id, title, camera(Vec3::Y * 4.0, Vec3::ZERO, Vec3::Z));
     let ground = scene.add_material(Material::diffuse("ground", albedo));
-    let side = 100.0;
+    // Beyond every view, and small: renderers lift shadow rays by the rounding of a triangle's coordinates.
+    let side = 5.0;
     scene
         .add_mesh(quad(Vec3::new(-side, 0.0, -side), Vec3::Z * (2.0 * side), Vec3::X * (2.0 * side)), ground);
     scene
@@ -106,6 +128,7 @@ mod tests {
             sphere_under_sky(Scattering::Glass { ior: 1.5 }),
             plane_under_sun(white, Vec3::ONE, 30.0),
             plane_under_panel(white, 0.5, 1.0),
+            plane_under_ball(white, 0.5, 2.0),
         ] {
             assert_eq!(scene.check(), Ok(()));
         }

@@ -1,7 +1,8 @@
 use thiserror::Error;
 
 use crate::Scene;
-use crate::builtin::{cornell, outdoor, toaster};
+use crate::analytic;
+use crate::builtin::{conference, cornell, outdoor, rings, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -34,6 +35,36 @@ const SCENES: &[SceneEntry] = &[
         id: outdoor::ID,
         about: "shaded brick courtyard with two potted shrubs: stands in for the outdoor scene of moon2013flash",
         build: outdoor::outdoor,
+    },
+    SceneEntry {
+        id: rings::ID,
+        about: "metal rings on wood with sharp caustics: stands in for the wedding band of moon2013flash and the rings of rousselle2013rdfc",
+        build: rings::rings,
+    },
+    SceneEntry {
+        id: conference::ID,
+        about: "meeting room with many lamps and thin furniture: stands in for the conference room of rousselle2013rdfc",
+        build: conference::conference,
+    },
+    SceneEntry {
+        id: two_quads::ID,
+        about: "a textured quad in focus beside one far out of focus: stands in for rousselle2013rdfc Fig. 3",
+        build: two_quads::two_quads,
+    },
+    SceneEntry {
+        id: "furnace",
+        about: "inside of a glowing box: every pixel is 1/(1−albedo), or the geometric sum that the path depth allows",
+        build: || analytic::furnace(0.5),
+    },
+    SceneEntry {
+        id: "direct",
+        about: "diffuse plane under a square lamp: the closed form of a configuration factor",
+        build: || analytic::plane_under_panel(glam::Vec3::splat(0.6), 1.0, 1.5),
+    },
+    SceneEntry {
+        id: "gradient",
+        about: "diffuse plane under a ball lamp: light falls off smoothly, in closed form everywhere",
+        build: || analytic::plane_under_ball(glam::Vec3::splat(0.7), 0.9, 2.0),
     },
 ];
 
