@@ -88,7 +88,7 @@ pub struct Run {
     noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference"
 )]
 pub struct Render {
-    /// Scene id; see `noisefloor scenes`
+    /// Scene id, see `noisefloor scenes`; or a glTF file, .gltf or .glb
     pub scene: String,
     /// Samples per pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]

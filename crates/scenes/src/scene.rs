@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
@@ -153,9 +155,9 @@ pub struct Models {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Stable name.
-    pub id: &'static str,
+    pub id: Cow<'static, str>,
     /// Title for people.
-    pub title: &'static str,
+    pub title: Cow<'static, str>,
     /// Camera.
     pub camera: CameraSpec,
     /// Surfaces.
