@@ -191,3 +191,28 @@ fn hostile_numbers_are_refused_with_the_place() {
     assert!(matches!(load_bytes(b"not a scene"), Err(GltfError::Syntax { .. })));
     assert!(matches!(load(&PathBuf::from("no/such.glb")), Err(GltfError::Io { .. })));
 }
+
+#[test]
+fn lights_without_an_area_are_dropped_and_counted() {
+    let mut value = square();
+    value["materials"].as_array_mut().unwrap().push(json!({ "emissiveFactor": [1.0, 1.0, 1.0] }));
+    let primitives = value["meshes"][0]["primitives"].as_array_mut().unwrap();
+    // Two corners make no triangle.
+    let point = json!({ "attributes": { "POSITION": 0 }, "indices": 3, "material": 1 });
+    primitives.push(point);
+    value["accessors"].as_array_mut().unwrap().push(
+        json!({ "bufferView": 2, "byteOffset": 4, "componentType": 5123, "count": 2, "type": "SCALAR" }),
+    );
+    let loaded = load_json(&value).unwrap();
+    assert!(loaded.notices.iter().any(|n| n == "dropped 1 lights without an area"), "{:?}", loaded.notices);
+    assert_eq!(loaded.scene.meshes.len(), 1);
+}
+
+#[test]
+fn an_image_of_no_pixels_is_refused() {
+    let mut bytes = STANDARD.decode(image().split_once(',').unwrap().1).unwrap();
+    // The width, after the signature and the length and name of the first chunk.
+    bytes[16..20].fill(0);
+    let told = refused(|v| v["images"][0]["uri"] = json!(uri(&bytes)));
+    assert!(told.contains("image 0"), "{told}");
+}
