@@ -45,8 +45,8 @@ pub enum GltfError {
         /// Which file.
         path: PathBuf,
     },
-    /// More triangles than are accepted once instances are expanded.
-    #[error("more than {most} triangles")]
+    /// More triangles or vertices than are accepted once instances are expanded.
+    #[error("more than {most} triangles or vertices")]
     TooManyTriangles {
         /// The most that is accepted.
         most: usize,

@@ -10,7 +10,7 @@ use crate::data::{Buffers, read_file};
 use crate::geometry::mesh;
 use crate::material::Materials;
 
-/// The most triangles of a scene, instances counted each.
+/// The most triangles or vertices of a scene, instances counted each.
 const MOST_TRIANGLES: usize = 50_000_000;
 
 /// A scene from a file.
@@ -73,7 +73,7 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
                 dark_lamps += usize::from(lamp);
                 continue;
             }
-            total += mesh.triangles.len();
+            total += mesh.triangles.len().max(mesh.positions.len());
             if total > MOST_TRIANGLES {
                 return Err(GltfError::TooManyTriangles { most: MOST_TRIANGLES });
             }
