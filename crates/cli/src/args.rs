@@ -90,7 +90,7 @@ pub struct Run {
     noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr"
 )]
 pub struct Render {
-    /// Scene id; see `noisefloor scenes`
+    /// Scene id, see `noisefloor scenes`; or a glTF file, .gltf or .glb
     pub scene: String,
     /// Samples per pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]

@@ -11,7 +11,7 @@ use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
 use noisefloor_io::{write_frame, write_reference};
 use noisefloor_render::{FeatureHit, Keep, Prepared, Quantity, Record, RenderRequest, available};
-use noisefloor_scenes::{EnvironmentMap, Sky};
+use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
 use serde_json::Map;
 
 use crate::args::Render;
@@ -20,7 +20,7 @@ use crate::progress::bar;
 
 pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     use_threads(args.threads)?;
-    let mut scene = (noisefloor_scenes::find(&args.scene)?.build)();
+    let mut scene = find_scene(args)?;
     if let Some(path) = &args.environment {
         scene.sky = Some(Sky::Map(Arc::new(environment(path)?)));
     }
@@ -45,7 +45,7 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
 
     let pixels = (args.size.width * args.size.height) as u64;
     let progress = bar(pixels * u64::from(args.parts.unwrap_or(1)), args.quiet);
-    progress.set_message(format!("{} at {} samples per pixel", args.scene, args.spp));
+    progress.set_message(format!("{} at {} samples per pixel", scene.id, args.spp));
     let advance = |finished: usize| {
         progress.inc(finished as u64);
         ControlFlow::Continue(())
@@ -89,6 +89,21 @@ fn environment(path: &Path) -> anyhow::Result<EnvironmentMap> {
         height: image.height(),
         texels: texels.map(|((r, g), b)| Vec3::new(*r, *g, *b)).collect(),
     })
+}
+
+/// A built-in scene, or one from a file, whose notices go to the standard error stream.
+fn find_scene(args: &Render) -> anyhow::Result<Scene> {
+    let path = Path::new(&args.scene);
+    let named =
+        path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf") || e.eq_ignore_ascii_case("glb"));
+    if !named && !path.is_file() {
+        return Ok((noisefloor_scenes::find(&args.scene)?.build)());
+    }
+    let loaded = noisefloor_gltf::load(path)?;
+    for notice in &loaded.notices {
+        eprintln!("notice: {notice}");
+    }
+    Ok(loaded.scene)
 }
 
 /// Everything that some registered method needs or uses, as far as the scene can give it.

@@ -88,6 +88,39 @@ fn what_is_rendered_can_be_chosen() {
 }
 
 #[test]
+fn a_gltf_file_is_a_scene_and_what_it_lacks_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let corners = [[-9.0f32, -9.0, 0.0], [9.0, -9.0, 0.0], [0.0, 9.0, 0.0]];
+    let bytes: Vec<u8> = corners.iter().flatten().flat_map(|v| v.to_le_bytes()).collect();
+    std::fs::write(at.join("one.bin"), bytes).unwrap();
+    let text = r#"{
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+        "materials": [{"name": "glow", "emissiveFactor": [1.0, 0.5, 0.25]}],
+        "buffers": [{"uri": "one.bin", "byteLength": 36}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+            "min": [-9, -9, 0], "max": [9, 9, 0]}]
+    }"#;
+    std::fs::write(at.join("one.gltf"), text).unwrap();
+    let args = ["render", "one.gltf", "--spp", "4", "--size", "9x7", "--depth", "1", "-o", "one.exr"];
+    let output = noisefloor(at, &args);
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success() && told.contains("no perspective camera"), "{told}");
+    let frame =
+        noisefloor::io::read_frame(at.join("one.exr"), &noisefloor::io::ReadOptions::default()).unwrap();
+    assert_eq!(frame.provenance.scene.as_deref(), Some("one"));
+    let middle = 3 * 9 + 4;
+    let color: Vec<f32> = (0..3).map(|c| frame.color.mean.plane(c)[middle]).collect();
+    assert_eq!(color, [1.0, 0.5, 0.25]);
+
+    std::fs::remove_file(at.join("one.bin")).unwrap();
+    let error = refused(at, &args);
+    assert!(error.contains("one.bin") && error.matches("No such file").count() == 1, "{error}");
+}
+
+#[test]
 fn equal_seeds_give_equal_files_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

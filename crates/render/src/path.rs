@@ -266,8 +266,8 @@ mod tests {
             emission: Vec3::splat(emission),
         };
         let mut scene = Scene {
-            id: "test",
-            title: "",
+            id: "test".into(),
+            title: "".into(),
             camera: CameraSpec {
                 eye: Vec3::ONE,
                 target: Vec3::ZERO,

@@ -35,7 +35,7 @@ impl Prepared {
     /// [`RenderError::EmptyScene`] if nothing can be hit; [`RenderError::InvalidScene`] naming the first number or index
     /// that has no meaning: non-finite or out of its documented range.
     pub fn new(scene: &Scene) -> Result<Self, RenderError> {
-        let check = Check(scene.id);
+        let check = Check(&scene.id);
         check.scene(scene)?;
         let mut parts = Parts { scene, dropped: 0, ..Parts::new(scene) };
         for (index, mesh) in scene.meshes.iter().enumerate() {
@@ -45,7 +45,7 @@ impl Prepared {
             parts.sphere(index, sphere, &check)?;
         }
         if parts.primitives.is_empty() {
-            return Err(RenderError::EmptyScene { scene: scene.id.into(), dropped: parts.dropped });
+            return Err(RenderError::EmptyScene { scene: scene.id.to_string(), dropped: parts.dropped });
         }
         let (low, high) = parts
             .primitives
@@ -59,7 +59,7 @@ impl Prepared {
         });
         let lights = parts.lights.finish(sun, scene.sky.as_ref(), radius);
         Ok(Self {
-            id: scene.id.into(),
+            id: scene.id.to_string(),
             camera: scene.camera,
             bvh: Bvh::new(&parts.primitives),
             geometry: parts.geometry,
@@ -141,7 +141,7 @@ impl<'a> Parts<'a> {
         &mut self,
         index: usize,
         mesh: &noisefloor_scenes::Mesh,
-        check: &Check,
+        check: &Check<'_>,
     ) -> Result<(), RenderError> {
         let material = self.material(mesh.material, &format!("mesh {index}"), check)?;
         let textured = match &self.scene.materials[mesh.material].scattering {
@@ -205,7 +205,7 @@ impl<'a> Parts<'a> {
         &mut self,
         index: usize,
         sphere: &noisefloor_scenes::Sphere,
-        check: &Check,
+        check: &Check<'_>,
     ) -> Result<(), RenderError> {
         let material = self.material(sphere.material, &format!("sphere {index}"), check)?;
         check.point(sphere.center, || format!("sphere {index}, centre"))?;
@@ -220,7 +220,7 @@ impl<'a> Parts<'a> {
         Ok(())
     }
 
-    fn material(&self, index: usize, what: &str, check: &Check) -> Result<u32, RenderError> {
+    fn material(&self, index: usize, what: &str, check: &Check<'_>) -> Result<u32, RenderError> {
         if index >= self.surfaces.len() {
             return check.fail(format!("{what}, material"), index, "below the number of materials");
         }
@@ -229,9 +229,9 @@ impl<'a> Parts<'a> {
 }
 
 /// Checks of numbers, with the scene's name for messages.
-struct Check(&'static str);
+struct Check<'a>(&'a str);
 
-impl Check {
+impl Check<'_> {
     fn fail<T>(&self, what: String, value: impl ToString, expected: &'static str) -> Result<T, RenderError> {
         Err(RenderError::InvalidScene { scene: self.0.into(), what, value: value.to_string(), expected })
     }

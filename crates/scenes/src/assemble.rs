@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 use glam::Vec3;
 
 use crate::{CameraSpec, Material, MaterialIndex, Mesh, Scene, Sphere};
@@ -5,7 +7,12 @@ use crate::{CameraSpec, Material, MaterialIndex, Mesh, Scene, Sphere};
 impl Scene {
     /// A scene with nothing in it and no light.
     #[must_use]
-    pub fn empty(id: &'static str, title: &'static str, camera: CameraSpec) -> Self {
+    pub fn empty(
+        id: impl Into<Cow<'static, str>>,
+        title: impl Into<Cow<'static, str>>,
+        camera: CameraSpec,
+    ) -> Self {
+        let (id, title) = (id.into(), title.into());
         Self { id, title, camera, materials: vec![], meshes: vec![], spheres: vec![], sun: None, sky: None }
     }
 

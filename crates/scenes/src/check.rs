@@ -11,13 +11,13 @@ pub enum SceneError {
     #[error("scene `{scene}` has neither triangles nor spheres")]
     Empty {
         /// The scene's id.
-        scene: &'static str,
+        scene: String,
     },
     /// A mesh or sphere names a material that does not exist.
     #[error("scene `{scene}`: {what} uses material {index}, but there are {count}")]
     MissingMaterial {
         /// The scene's id.
-        scene: &'static str,
+        scene: String,
         /// Which mesh or sphere.
         what: String,
         /// What it asks for.
@@ -29,7 +29,7 @@ pub enum SceneError {
     #[error("scene `{scene}`: mesh {mesh}: {problem}")]
     BadMesh {
         /// The scene's id.
-        scene: &'static str,
+        scene: String,
         /// Index of the mesh.
         mesh: usize,
         /// What is wrong and where.
@@ -39,7 +39,7 @@ pub enum SceneError {
     #[error("scene `{scene}`: {what} is {value}, allowed is {allowed}")]
     OutOfRange {
         /// The scene's id.
-        scene: &'static str,
+        scene: String,
         /// Which quantity of which part.
         what: String,
         /// Its value.
@@ -58,18 +58,19 @@ impl Scene {
     /// The first problem found, naming the part.
     pub fn check(&self) -> Result<(), SceneError> {
         if self.spheres.is_empty() && self.meshes.iter().all(|m| m.triangles.is_empty()) {
-            return Err(SceneError::Empty { scene: self.id });
+            return Err(SceneError::Empty { scene: self.id.to_string() });
         }
         self.check_camera()?;
         self.check_light()?;
         self.materials.iter().try_for_each(|m| self.check_material(m))?;
         for (i, mesh) in self.meshes.iter().enumerate() {
             self.check_index(|| format!("mesh {i}"), mesh.material)?;
-            mesh_problem(mesh)
-                .map_or(Ok(()), |problem| Err(SceneError::BadMesh { scene: self.id, mesh: i, problem }))?;
+            mesh_problem(mesh).map_or(Ok(()), |problem| {
+                Err(SceneError::BadMesh { scene: self.id.to_string(), mesh: i, problem })
+            })?;
             if mesh.uvs.is_empty() && self.materials[mesh.material].is_textured() {
                 let problem = "has no texture coordinates, but its material is textured".to_owned();
-                return Err(SceneError::BadMesh { scene: self.id, mesh: i, problem });
+                return Err(SceneError::BadMesh { scene: self.id.to_string(), mesh: i, problem });
             }
         }
         for (i, sphere) in self.spheres.iter().enumerate() {
@@ -133,7 +134,7 @@ impl Scene {
             }
             Some(crate::Sky::Map(map)) => map.problem().map_or(Ok(()), |(what, value)| {
                 Err(SceneError::OutOfRange {
-                    scene: self.id,
+                    scene: self.id.to_string(),
                     what,
                     value,
                     allowed: crate::environment::ALLOWED,
@@ -180,14 +181,19 @@ impl Scene {
         if index < count {
             return Ok(());
         }
-        Err(SceneError::MissingMaterial { scene: self.id, what: what(), index, count })
+        Err(SceneError::MissingMaterial { scene: self.id.to_string(), what: what(), index, count })
     }
 
     fn finite(&self, what: impl Fn() -> String, v: Vec3) -> Result<(), SceneError> {
         if v.is_finite() {
             return Ok(());
         }
-        Err(SceneError::OutOfRange { scene: self.id, what: what(), value: v.to_string(), allowed: "finite" })
+        Err(SceneError::OutOfRange {
+            scene: self.id.to_string(),
+            what: what(),
+            value: v.to_string(),
+            allowed: "finite",
+        })
     }
 
     fn radiance(&self, what: impl Fn() -> String, v: Vec3) -> Result<(), SceneError> {
@@ -205,7 +211,12 @@ impl Scene {
         if value.is_finite() && ok(value) {
             return Ok(());
         }
-        Err(SceneError::OutOfRange { scene: self.id, what: what(), value: value.to_string(), allowed })
+        Err(SceneError::OutOfRange {
+            scene: self.id.to_string(),
+            what: what(),
+            value: value.to_string(),
+            allowed,
+        })
     }
 }
 

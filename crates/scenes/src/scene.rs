@@ -1,3 +1,4 @@
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
@@ -159,9 +160,9 @@ pub struct Models {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Stable name.
-    pub id: &'static str,
+    pub id: Cow<'static, str>,
     /// Title for people.
-    pub title: &'static str,
+    pub title: Cow<'static, str>,
     /// Camera.
     pub camera: CameraSpec,
     /// Surfaces.

@@ -3,11 +3,13 @@
 //! They sit in the innermost loop of path tracing, so each costs a handful of integer hashes and no transcendental
 //! function. Lattice noise is hashed from integer coordinates: every machine sees the same texture.
 
+mod image;
 mod masonry;
 mod noise;
 mod organic;
 mod wood;
 
+pub use image::{ImageSizeError, ImageTexture, Wrap};
 pub use masonry::{Bricks, Tiles};
 pub use noise::{Clouds, Streaks, fractal, value_noise};
 pub use organic::{Bread, Leaf};
@@ -55,6 +57,8 @@ pub enum Texture {
     Leaf(Leaf),
     /// A slice of toast.
     Bread(Bread),
+    /// An image from a file.
+    Image(ImageTexture),
 }
 
 impl Texture {
@@ -82,6 +86,7 @@ impl Texture {
             Self::Streaks(t) => t.eval(uv),
             Self::Leaf(t) => t.eval(uv),
             Self::Bread(t) => t.eval(uv),
+            Self::Image(t) => t.eval(uv),
         }
     }
 }

@@ -93,7 +93,7 @@ pub(super) fn open(
     ];
     Ok(Scene {
         id: spec.id.clone(),
-        title: scene.title.to_owned(),
+        title: scene.title.to_string(),
         about: entry.about.to_owned(),
         width,
         height,

@@ -11,8 +11,8 @@ pub fn camera(eye: Vec3, target: Vec3, fov: f32) -> CameraSpec {
 
 pub fn empty(camera: CameraSpec) -> Scene {
     Scene {
-        id: "test",
-        title: "Test",
+        id: "test".into(),
+        title: "Test".into(),
         camera,
         materials: Vec::new(),
         meshes: Vec::new(),
