@@ -125,8 +125,8 @@ impl<const C: usize> BlockTree<C> {
         self.leaves += 1 << height;
     }
 
-    /// Adds all leaves of a tree that went on where this one ended, if that makes the fixed tree: the leaves so far must be
-    /// a multiple of the other's largest subtree. Else nothing changes and the answer is `false`.
+    /// Adds all leaves of a tree that went on where this one ended, if that makes the fixed tree: the leaves so far
+    /// must be a multiple of the other's largest subtree. Else nothing changes and the answer is `false`.
     pub fn append(&mut self, next: &Self) -> bool {
         let heights = (0..next.levels.len()).rev().filter(|level| next.leaves >> level & 1 == 1);
         if heights.clone().next().is_some_and(|top| !self.leaves.is_multiple_of(1 << top)) {

@@ -4,13 +4,13 @@ use crate::RenderError;
 
 /// Shares out `budget` samples in proportion to a density, between two limits for each pixel.
 ///
-/// `density` has one number per pixel, finite and not negative; only ratios matter, and if all are zero the shares are equal. What a limit
-/// takes from a pixel goes to the others in proportion. The sum is exactly `budget`: fractions are carried on from pixel to pixel, so that every
-/// number is its real-valued share rounded down or up.
+/// `density` has one number per pixel, finite and not negative; only ratios matter, and if all are zero the shares are
+/// equal. What a limit takes from a pixel goes to the others in proportion. The sum is exactly `budget`: fractions are
+/// carried on from pixel to pixel, so that every number is its real-valued share rounded down or up.
 ///
 /// # Errors
-/// [`RenderError::InvalidRequest`] for a density without meaning (the pixel is named), limits in the wrong order, or a budget that the limits
-/// cannot hold.
+/// [`RenderError::InvalidRequest`] for a density without meaning (the pixel is named), limits in the wrong order, or a
+/// budget that the limits cannot hold.
 pub fn allocate(density: &[f64], budget: u64, limits: RangeInclusive<u32>) -> Result<Vec<u32>, RenderError> {
     let wrong = |parameter, value: String, expected: String| {
         Err(RenderError::InvalidRequest { parameter, value, expected })

@@ -7,9 +7,10 @@ pub enum FeatureHit {
     /// Where the camera ray first hits.
     #[default]
     First,
-    /// The first hit that is not perfectly specular: mirrors and smooth glass are followed. Albedo is multiplied by the tint of the mirrors on the way, depth is the length
-    /// of the way, the normal is that of the surface itself, and direct light is the emission seen there plus light scattered once there. Background
-    /// behind specular surfaces counts as background; where the path ends before, the last specular hit counts.
+    /// The first hit that is not perfectly specular: mirrors and smooth glass are followed. Albedo is multiplied by the
+    /// tint of the mirrors on the way, depth is the length of the way, the normal is that of the surface itself, and
+    /// direct light is the emission seen there plus light scattered once there. Background behind specular surfaces
+    /// counts as background; where the path ends before, the last specular hit counts.
     ThroughSpecular,
 }
 

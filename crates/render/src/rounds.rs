@@ -19,10 +19,10 @@ const PIECE: usize = 64;
 
 /// A frame in the making: the running statistics of every pixel, to which samples can be added where they are wanted.
 ///
-/// Every pixel goes through its own samples in their order, whatever the rounds: after any rounds a pixel has the bits that
-/// one run with its number of samples gives it, on any number of threads. Frames whose pixels differ in their number of
-/// samples carry a map of it. A density that was made from the samples themselves biases their mean; this type does not
-/// know where its numbers come from.
+/// Every pixel goes through its own samples in their order, whatever the rounds: after any rounds a pixel has the bits
+/// that one run with its number of samples gives it, on any number of threads. Frames whose pixels differ in their
+/// number of samples carry a map of it. A density that was made from the samples themselves biases their mean; this
+/// type does not know where its numbers come from.
 ///
 /// A pixel takes 0.5 to 3 KB, more with more recorded quantities and with more samples.
 #[derive(Debug)]
@@ -113,10 +113,10 @@ impl<'a> Rounds<'a> {
         done
     }
 
-    /// Appends a range of samples that was rendered apart: the same scene and request, and in every pixel it starts where
-    /// this one ends. Four ranges of equal length that are multiples of [`noisefloor_frame::BLOCK_SAMPLES`], appended in
-    /// their order, have the mean and variance of one run bit for bit if the length is a power of two; other ranges, and half buffers always,
-    /// agree to the rounding of `f64`.
+    /// Appends a range of samples that was rendered apart: the same scene and request, and in every pixel it starts
+    /// where this one ends. Four ranges of equal length that are multiples of [`noisefloor_frame::BLOCK_SAMPLES`],
+    /// appended in their order, have the mean and variance of one run bit for bit if the length is a power of two;
+    /// other ranges, and half buffers always, agree to the rounding of `f64`.
     ///
     /// # Errors
     /// [`RenderError::InvalidRequest`] if the requests differ or a pixel does not continue; then nothing changes.

@@ -66,7 +66,8 @@ impl<const C: usize> Tally<C> {
     }
 
     /// Adds the samples of a range that went on where this one ended. Moments have the bits of one run if the range is
-    /// made of whole aligned blocks (4 ranges of 2^k blocks are); else, like the half means always, they agree to the rounding of `f64`.
+    /// made of whole aligned blocks (4 ranges of 2^k blocks are); else, like the half means always, they agree to the
+    /// rounding of `f64`.
     pub fn append(&mut self, next: &Self) {
         if self.leaf.count() == 0 && self.loose.count() == 0 && self.tree.append(&next.tree) {
             self.leaf = next.leaf;

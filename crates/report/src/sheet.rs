@@ -11,7 +11,8 @@ use crate::plot::font::{self, Weight};
 pub struct SheetEntry {
     /// Written above the pair.
     pub title: String,
-    /// Images of equal size, left and right, as they are shown: values in [0, 1] with the display's curve applied; one channel is grey.
+    /// Images of equal size, left and right, as they are shown: values in [0, 1] with the display's curve applied; one
+    /// channel is grey.
     pub images: [Image; 2],
 }
 

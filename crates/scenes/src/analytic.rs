@@ -67,8 +67,9 @@ pub fn panel_irradiance(half: f64, height: f64) -> f64 {
     4.0 * a * a.atan()
 }
 
-/// A wide diffuse plane at height 0 seen from above, lit by a ball of radiance 1 and radius `radius` whose centre stands `height` (at least `radius`)
-/// above the point (−[`BALL_OFFSET`], 0, 0), outside of the image. Irradiance: [`ball_irradiance`].
+/// A wide diffuse plane at height 0 seen from above, lit by a ball of radiance 1 and radius `radius` whose centre
+/// stands `height` (at least `radius`) above the point (−[`BALL_OFFSET`], 0, 0), outside of the image. Irradiance:
+/// [`ball_irradiance`].
 #[must_use]
 pub fn plane_under_ball(albedo: impl Into<Color>, radius: f32, height: f32) -> Scene {
     let mut scene = plane("gradient", "Plane under a ball lamp", albedo);

@@ -3,9 +3,10 @@ use glam::Vec3;
 /// What an [`EnvironmentMap`] may be.
 pub(crate) const ALLOWED: &str = "1 to 2^27 texels, as many as width × height, each finite and not negative";
 
-/// Radiance from infinitely far away by direction, as an image in latitude and longitude: the columns run once around the vertical axis, the rows from
-/// straight up (+Y, first row) to straight down. The middle of the image is looked at along −Z, its right half lies towards +X. Texels are
-/// constant patches: no filter is applied, so that a renderer can sample them exactly.
+/// Radiance from infinitely far away by direction, as an image in latitude and longitude: the columns run once around
+/// the vertical axis, the rows from straight up (+Y, first row) to straight down. The middle of the image is looked at
+/// along −Z, its right half lies towards +X. Texels are constant patches: no filter is applied, so that a renderer can
+/// sample them exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EnvironmentMap {
     /// Columns.

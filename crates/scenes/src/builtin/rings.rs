@@ -1,7 +1,8 @@
 //! Rings on a wooden table, in centimetres.
 //!
-//! Stands in for the wedding band of moon2013flash and the rings of rousselle2013rdfc: polished metal that throws sharp caustics of a small lamp onto a textured
-//! floor. A path tracer finds a caustic only where a path from the table meets the lamp by way of the metal, so few samples miss much of it.
+//! Stands in for the wedding band of moon2013flash and the rings of rousselle2013rdfc: polished metal that throws sharp
+//! caustics of a small lamp onto a textured floor. A path tracer finds a caustic only where a path from the table meets
+//! the lamp by way of the metal, so few samples miss much of it.
 
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -59,7 +60,8 @@ fn table(scene: &mut Scene) {
     });
 }
 
-/// A band around the Y axis, standing on the XZ plane: `radius` at its middle, `height` high, with a domed outside and a flatter inside.
+/// A band around the Y axis, standing on the XZ plane: `radius` at its middle, `height` high, with a domed outside and
+/// a flatter inside.
 fn ring(radius: f32, height: f32) -> Mesh {
     let steps = 64;
     let profile: Vec<Vec2> = (0..=steps)
@@ -75,7 +77,8 @@ fn ring(radius: f32, height: f32) -> Mesh {
     lathe(&profile, 360)
 }
 
-/// Turned about X by `tilt` and about Y by `turn` degrees, put at `place`, and lifted so that its lowest point is on the table.
+/// Turned about X by `tilt` and about Y by `turn` degrees, put at `place`, and lifted so that its lowest point is on
+/// the table.
 fn lying(mesh: Mesh, place: Vec3, turn: f32, tilt: f32) -> Mesh {
     let map = Affine3A::from_rotation_y(turn.to_radians()) * Affine3A::from_rotation_x(tilt.to_radians());
     let mesh = mesh.transformed(map);

@@ -1,7 +1,7 @@
 //! A sharp and a blurred picture, in metres.
 //!
-//! Stands in for rousselle2013rdfc, Fig. 3: one textured quad in focus, another far out of focus, the same light on both, so that the texture is the only
-//! feature that tells anything and its noise is all defocus.
+//! Stands in for rousselle2013rdfc, Fig. 3: one textured quad in focus, another far out of focus, the same light on
+//! both, so that the texture is the only feature that tells anything and its noise is all defocus.
 
 use glam::{Vec2, Vec3};
 
