@@ -72,6 +72,7 @@ fn what_is_rendered_can_be_chosen() {
     assert_eq!(through.provenance.extra["feature_hit"], "through-specular");
     let later = frame(&["--start", "8"]);
     assert_ne!(plain.color.mean, later.color.mean);
+    assert_eq!(later.provenance.extra["sample_start"], "8");
     let even = frame(&["--sampling", "low-discrepancy"]);
     assert_eq!(even.sampling.name(), "low-discrepancy");
     // The frame itself serves as a sky.

@@ -1,5 +1,5 @@
 use glam::{Vec2, Vec3, Vec3A};
-use noisefloor_scenes::{CameraSpec, Color, Material, Models, Scattering, Scene, Sky};
+use noisefloor_scenes::{CameraSpec, Color, EnvironmentMap, Material, Models, Scattering, Scene, Sky};
 
 use crate::bvh::{Bvh, Primitive};
 use crate::lights::{Lights, LightsBuilder, SunDisc};
@@ -292,9 +292,7 @@ impl Check<'_> {
                 .into_iter()
                 .try_for_each(|radiance| self.radiance(*radiance, || "sky".into())),
             Some(Sky::Map(map)) => match map.problem() {
-                Some((what, value)) => {
-                    self.fail(what, value, "as many texels as width × height, each finite and not negative")
-                }
+                Some((what, value)) => self.fail(what, value, EnvironmentMap::ALLOWED),
                 None => Ok(()),
             },
             None => Ok(()),

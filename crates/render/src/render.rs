@@ -103,6 +103,9 @@ pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, non_finite: 
     if non_finite > 0 {
         extra.insert("non_finite_samples".into(), non_finite.to_string());
     }
+    if request.sample_start > 0 {
+        extra.insert("sample_start".into(), request.sample_start.to_string());
+    }
     if request.feature_hit != FeatureHit::First {
         extra.insert("feature_hit".into(), request.feature_hit.name().into());
     }

@@ -137,7 +137,7 @@ impl Scene {
                     scene: self.id.to_string(),
                     what,
                     value,
-                    allowed: crate::environment::ALLOWED,
+                    allowed: crate::EnvironmentMap::ALLOWED,
                 })
             }),
         }

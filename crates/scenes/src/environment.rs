@@ -1,8 +1,5 @@
 use glam::Vec3;
 
-/// What an [`EnvironmentMap`] may be.
-pub(crate) const ALLOWED: &str = "1 to 2^27 texels, as many as width × height, each finite and not negative";
-
 /// Radiance from infinitely far away by direction, as an image in latitude and longitude: the columns run once around
 /// the vertical axis, the rows from straight up (+Y, first row) to straight down. The middle of the image is looked at
 /// along −Z, its right half lies towards +X. Texels are constant patches: no filter is applied, so that a renderer can
@@ -18,6 +15,10 @@ pub struct EnvironmentMap {
 }
 
 impl EnvironmentMap {
+    /// What a map may be, in words.
+    pub const ALLOWED: &'static str =
+        "1 to 2^27 texels, as many as width × height, each finite and not negative";
+
     /// What is wrong with it, if something is: its size, or a texel that is negative or not finite.
     #[must_use]
     pub fn problem(&self) -> Option<(String, String)> {

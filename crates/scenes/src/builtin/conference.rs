@@ -1,6 +1,6 @@
 //! A conference room, in metres.
 //!
-//! Stands in for the conference room of rousselle2013rdfc (Fig. 5 and 6): many area lights, so that soft and hard
+//! Stands in for the conference room of rousselle2013rdfc (Fig. 4 and 6): many area lights, so that soft and hard
 //! shadows lie over each other, and long thin geometry — chair legs, armrests, the slats of a blind.
 
 use glam::{Vec2, Vec3};

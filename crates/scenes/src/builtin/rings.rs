@@ -46,7 +46,7 @@ fn table(scene: &mut Scene) {
         }),
     ));
     scene.add_mesh(quad(Vec3::new(-30.0, 0.0, 30.0), Vec3::X * 60.0, Vec3::Z * -60.0), wood);
-    // As bright as a bulb seems: a square of 1.4 cm at half an arm's length in a dim room.
+    // A square of 1.4 cm about 8 cm away: small enough for sharp caustics, large enough to be met by chance.
     let lamp = scene.add_material(Material::emitter("lamp", Vec3::new(150.0, 135.0, 110.0)));
     let (center, half) = (Vec3::new(-4.6, 5.4, -4.2), 0.7);
     let front = (Vec3::new(0.2, 0.0, 0.0) - center).normalize();
