@@ -265,21 +265,17 @@ mod tests {
             scattering: Scattering::Diffuse { albedo: Color::Constant(Vec3::ZERO) },
             emission: Vec3::splat(emission),
         };
+        let camera = CameraSpec {
+            eye: Vec3::ONE,
+            target: Vec3::ZERO,
+            up: Vec3::Y,
+            vertical_fov_degrees: 30.0,
+            lens: None,
+        };
         let mut scene = Scene {
-            id: "test".into(),
-            title: "".into(),
-            camera: CameraSpec {
-                eye: Vec3::ONE,
-                target: Vec3::ZERO,
-                up: Vec3::Y,
-                vertical_fov_degrees: 30.0,
-                lens: None,
-            },
             materials: vec![material(0.0), material(3.0)],
-            meshes: vec![],
             spheres: vec![Sphere { center: Vec3::new(-3.0, 0.0, 0.0), radius: 0.5, material: 0 }],
-            sun: None,
-            sky: None,
+            ..Scene::empty("test", "", camera)
         };
         match kind {
             "triangle" => scene.meshes.push(Mesh {

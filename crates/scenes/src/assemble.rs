@@ -13,7 +13,18 @@ impl Scene {
         camera: CameraSpec,
     ) -> Self {
         let (id, title) = (id.into(), title.into());
-        Self { id, title, camera, materials: vec![], meshes: vec![], spheres: vec![], sun: None, sky: None }
+        Self {
+            id,
+            title,
+            camera,
+            materials: vec![],
+            meshes: vec![],
+            spheres: vec![],
+            sun: None,
+            sky: None,
+            medium: None,
+            animation: None,
+        }
     }
 
     /// Adds a material and returns the index by which meshes and spheres refer to it.

@@ -62,6 +62,12 @@ impl Scene {
         }
         self.check_camera()?;
         self.check_light()?;
+        let problem = self.medium.as_ref().and_then(|medium| medium.problem(self));
+        let problem =
+            problem.or_else(|| self.animation.as_ref().and_then(|animation| animation.problem(self)));
+        if let Some((what, value, allowed)) = problem {
+            return Err(SceneError::OutOfRange { scene: self.id.to_string(), what, value, allowed });
+        }
         self.materials.iter().try_for_each(|m| self.check_material(m))?;
         for (i, mesh) in self.meshes.iter().enumerate() {
             self.check_index(|| format!("mesh {i}"), mesh.material)?;

@@ -8,6 +8,7 @@
 //! every time it is built.
 
 pub mod analytic;
+mod animation;
 mod assemble;
 mod builtin;
 mod catalog;
@@ -15,13 +16,16 @@ mod check;
 mod environment;
 pub mod hash;
 mod material;
+mod medium;
 mod scene;
 pub mod shape;
 pub mod texture;
 
+pub use animation::{Animation, Body, CameraMove, Spin};
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};
 pub use check::SceneError;
 pub use environment::EnvironmentMap;
+pub use medium::Medium;
 pub use scene::{
     CameraSpec, Color, Lens, Material, MaterialIndex, Mesh, Models, Scattering, Scene, Sky, Sphere, Sun,
 };

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3};
 use serde::{Deserialize, Serialize};
 
-use crate::{EnvironmentMap, Texture};
+use crate::{Animation, EnvironmentMap, Medium, Texture};
 
 /// Index into [`Scene::materials`].
 pub type MaterialIndex = usize;
@@ -154,10 +154,14 @@ pub struct Models {
     pub sky: bool,
     /// A sky that is an image, sampled by importance.
     pub environment_map: bool,
+    /// A participating medium.
+    pub medium: bool,
+    /// Bodies that move while the shutter is open.
+    pub motion_blur: bool,
 }
 
 /// Everything a renderer needs to know, and nothing about how it renders.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone, PartialEq)]
 pub struct Scene {
     /// Stable name.
     pub id: Cow<'static, str>,
@@ -175,6 +179,27 @@ pub struct Scene {
     pub sun: Option<Sun>,
     /// Background light; black if none.
     pub sky: Option<Sky>,
+    /// What light goes through outside glass; nothing if none.
+    pub medium: Option<Medium>,
+    /// What moves; everything stands still if none.
+    pub animation: Option<Animation>,
+}
+
+/// By hand: hashes of this text name rendered frames, so a capability that a scene does not use must not show in it.
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { id, title, camera, materials, meshes, spheres, sun, sky, medium, animation } = self;
+        let mut out = f.debug_struct("Scene");
+        out.field("id", id).field("title", title).field("camera", camera).field("materials", materials);
+        out.field("meshes", meshes).field("spheres", spheres).field("sun", sun).field("sky", sky);
+        if let Some(medium) = medium {
+            out.field("medium", medium);
+        }
+        if let Some(animation) = animation {
+            out.field("animation", animation);
+        }
+        out.finish()
+    }
 }
 
 impl Scene {
@@ -195,6 +220,8 @@ impl Scene {
             sun: self.sun.is_some(),
             sky: self.sky.is_some(),
             environment_map: matches!(self.sky, Some(Sky::Map(_))),
+            medium: self.medium.is_some(),
+            motion_blur: self.animation.as_ref().is_some_and(Animation::blurs),
         }
     }
 

@@ -10,16 +10,7 @@ pub fn camera(eye: Vec3, target: Vec3, fov: f32) -> CameraSpec {
 }
 
 pub fn empty(camera: CameraSpec) -> Scene {
-    Scene {
-        id: "test".into(),
-        title: "Test".into(),
-        camera,
-        materials: Vec::new(),
-        meshes: Vec::new(),
-        spheres: Vec::new(),
-        sun: None,
-        sky: None,
-    }
+    Scene::empty("test", "Test", camera)
 }
 
 pub fn add_material(scene: &mut Scene, scattering: Scattering, emission: f32) -> usize {
