@@ -57,6 +57,13 @@ pub struct Bvh {
 #[derive(Debug, Clone)]
 pub struct Stack(Vec<(u32, f32)>);
 
+impl Stack {
+    /// Entries.
+    pub fn size(&self) -> usize {
+        self.0.len()
+    }
+}
+
 /// A ray spread over lanes.
 struct Lanes {
     origin: [Vec4; 3],

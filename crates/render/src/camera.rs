@@ -64,6 +64,26 @@ impl Eye {
         }
     }
 
+    /// Width of a pixel at distance 1 from the eye, in the middle of the image.
+    pub fn pixel(&self) -> f32 {
+        2.0 * self.half[1] / self.size[1]
+    }
+
+    /// Where a point appears on the image, in pixels from the upper left corner; `None` behind the eye.
+    pub fn project(&self, p: Vec3A) -> Option<[f32; 2]> {
+        let to = p - self.position;
+        let z = to.dot(self.forward);
+        // A point closer to the eye's plane than this, relative to its distance, is nowhere near the image.
+        if z <= 1e-6 * to.length() {
+            return None;
+        }
+        let along = |axis: Vec3A, half: f32| to.dot(axis) / (z * half);
+        Some([
+            (0.5 + 0.5 * along(self.right, self.half[0])) * self.size[0],
+            (0.5 - 0.5 * along(self.up, self.half[1])) * self.size[1],
+        ])
+    }
+
     /// Diameter in pixels of the disc over which a point at `p` is spread; 0 for a pinhole.
     pub fn circle_of_confusion(&self, p: Vec3A) -> f32 {
         let Some(lens) = self.lens else { return 0.0 };

@@ -56,16 +56,18 @@ pub struct ClassMap {
 pub fn pixel_classes(scene: &Prepared, width: usize, height: usize) -> Result<ClassMap, RenderError> {
     check_size(width, height)?;
     let eye = Eye::new(&scene.camera, width, height, PixelFilter::Point);
-    let mut stack = scene.bvh.stack();
+    // In the middle of the time that the shutter is open.
+    let mut stack = scene.traversal();
+    scene.set_time(&mut stack, 0.5);
     let classes = (0..width * height)
         .map(|pixel| {
             let (origin, direction) = eye.ray(pixel % width, pixel / width, [0.5; 4]);
             let ray = Ray { origin, direction };
-            let Some(hit) = scene.bvh.closest(&ray, f32::INFINITY, &mut stack) else {
+            let Some(hit) = scene.closest::<true>(&ray, f32::INFINITY, &mut stack) else {
                 return PixelClass::Background;
             };
             let geometry = &scene.geometry[hit.primitive as usize];
-            let at = geometry.interact(&ray, &hit, &scene.attributes);
+            let at = scene.interact::<true>(&ray, &hit, &stack);
             let surface = &scene.surfaces[geometry.material as usize];
             if surface.emits && at.front {
                 PixelClass::Emitter

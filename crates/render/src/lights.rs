@@ -221,6 +221,28 @@ impl Lights {
         (sample.density > 1e-30 && sample.density < 1e30).then_some(sample)
     }
 
+    /// Light that leaves a source chosen in proportion to power: origin, direction, and its flux over the density of all
+    /// choices. `u` places it, `v` turns it; distant sources shine through a disc that covers the sphere around the scene.
+    pub fn emit(
+        &self,
+        u: [f32; 4],
+        v: [f32; 4],
+        center: Vec3A,
+        radius: f32,
+    ) -> Option<(Vec3A, Vec3A, Vec3A)> {
+        let light = match &self.lights[..] {
+            [] => return None,
+            [only] => only,
+            many => &many[self.cumulative.partition_point(|&sum| sum <= u[2]).min(many.len() - 1)],
+        };
+        if light.chance <= 0.0 {
+            return None;
+        }
+        let (origin, direction, flux) = light.emit(u, v, center, radius);
+        let flux = flux * (1.0 / light.chance);
+        (flux.is_finite() && flux.max_element() > 0.0).then_some((origin, direction, flux))
+    }
+
     /// Density with which [`Lights::sample`] at the ray's origin gives the direction of a ray that hits light `index`
     /// at distance `t` with geometric cosine `cos` there.
     #[inline(always)]
@@ -270,6 +292,9 @@ impl Lights {
     }
 }
 
+/// Distance from a lamp at which its photons start, in units of its coordinates: as far as hits keep clear of surfaces.
+const EMITTER_CLEARANCE: f32 = 3e-6;
+
 /// Squared relative distance from a sphere's centre within which the sphere is left to the directions that surfaces
 /// choose: its inside does not shine, and from the surface itself its cone is a hemisphere without a centre.
 const OUTSIDE: f32 = 1.000_1;
@@ -280,7 +305,58 @@ fn cap_height(squared_sine: f32) -> f32 {
     squared_sine / (1.0 + (1.0 - squared_sine).max(0.0).sqrt())
 }
 
+/// A direction among all, evenly.
+fn even_direction(u: f32, v: f32) -> Vec3A {
+    let (s, c) = turn(v);
+    let sin = (4.0 * u * (1.0 - u)).max(0.0).sqrt();
+    Vec3A::new(sin * c, sin * s, 1.0 - 2.0 * u)
+}
+
 impl Light {
+    /// Origin, direction, flux over density; the source is given.
+    fn emit(&self, u: [f32; 4], v: [f32; 4], center: Vec3A, radius: f32) -> (Vec3A, Vec3A, Vec3A) {
+        // Through a disc that faces the direction from which distant light comes.
+        let distant = |from: Vec3A| {
+            let (a, b) = crate::math::concentric_disc(u[0], u[1]);
+            let (t, s) = tangents(from);
+            (center + (t * a + s * b + from) * radius, -from, PI * radius * radius)
+        };
+        match &self.kind {
+            Kind::Triangle { origin, edge1, edge2, normal, inverse_area, emission } => {
+                let (mut a, mut b) = (u[0], u[1]);
+                if a + b > 1.0 {
+                    (a, b) = (1.0 - a, 1.0 - b);
+                }
+                let (direction, _) = cosine_hemisphere(*normal, v[0], v[1]);
+                // Clear of the lamp itself, as hits are.
+                let size = origin.abs().max_element() + edge1.abs().max_element() + edge2.abs().max_element();
+                let point = *origin + *edge1 * a + *edge2 * b + *normal * (EMITTER_CLEARANCE * size);
+                (point, direction, *emission * (PI / inverse_area))
+            }
+            Kind::Sphere { center, radius, emission } => {
+                let normal = even_direction(u[0], u[1]);
+                let (direction, _) = cosine_hemisphere(normal, v[0], v[1]);
+                let lift = EMITTER_CLEARANCE * (center.abs().max_element() + radius);
+                (*center + normal * (radius + lift), direction, *emission * (4.0 * PI * PI * radius * radius))
+            }
+            Kind::Sun(sun) => {
+                let (origin, direction, area) = distant(sun.sample(v[0], v[1]));
+                (origin, direction, sun.radiance * (area / sun.density()))
+            }
+            Kind::Sky(sky) => {
+                let from = even_direction(v[0], v[1]);
+                let (origin, direction, area) = distant(from);
+                (origin, direction, sky.radiance(from) * (4.0 * PI * area))
+            }
+            Kind::Environment(sky) => {
+                let (from, radiance, density) = sky.sample(v[0], v[1]);
+                let (origin, direction, area) = distant(from);
+                // A density of 0 only where the radiance is 0, too.
+                (origin, direction, radiance * (area / density.max(1e-30)))
+            }
+        }
+    }
+
     #[inline(always)]
     fn sample(&self, point: Vec3A, normal: Vec3A, u: f32, v: f32) -> Option<LightSample> {
         match &self.kind {

@@ -1,12 +1,19 @@
 //! The path integrator.
 
+use std::f32::consts::FRAC_1_PI;
+
 use glam::Vec3A;
 
 use crate::bsdf::{Event, Lobe};
-use crate::bvh::{Ray, Stack};
+use crate::bvh::{Hit, Ray};
+use crate::camera::Eye;
+use crate::intersect::Traversal;
 use crate::lights::LightSample;
 use crate::math::power_heuristic;
+use crate::medium::Flight;
+use crate::photons::PhotonMaps;
 use crate::prepare::Prepared;
+use crate::request::DEEPEST;
 use crate::sampler::Sampler;
 use crate::surface::{Geometry, Interaction};
 
@@ -39,6 +46,12 @@ pub struct Outcome {
     pub flash_base: Vec3A,
     /// S of the virtual flash.
     pub eye_light: Vec3A,
+    /// See [`crate::Quantity::Brdf`].
+    pub brdf: Vec3A,
+    /// See [`crate::Quantity::Motion`].
+    pub motion: [f32; 2],
+    /// See [`crate::Quantity::Caustics`].
+    pub caustics: f32,
 }
 
 impl Outcome {
@@ -53,7 +66,29 @@ impl Outcome {
         material: -1,
         flash_base: Vec3A::ZERO,
         eye_light: Vec3A::ZERO,
+        brdf: Vec3A::ZERO,
+        motion: [0.0; 2],
+        caustics: 0.0,
     };
+}
+
+/// What all paths of an image have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct View<'a> {
+    /// Centre of the lens, where the eye light sits.
+    pub eye: Vec3A,
+    /// Most edges of a path.
+    pub depth: u32,
+    /// Whether features are taken at the first hit that is not specular.
+    pub follow: bool,
+    /// Photon maps, for caustics as a feature.
+    pub photons: Option<&'a PhotonMaps>,
+    /// Whether the photon maps give what comes after the first diffuse vertex.
+    pub gather: bool,
+    /// Width of a pixel at distance 1.
+    pub pixel: f32,
+    /// The camera in this frame and in the next, if anything moves.
+    pub frames: Option<[Eye; 2]>,
 }
 
 /// How far the path still belongs to the flash image (moon2013flash, Sec. 3.1).
@@ -67,15 +102,14 @@ enum Reuse {
     Done,
 }
 
-/// Traces one path of at most `depth` edges; features are taken at the first hit, or with `follow` at the first that is not
-/// specular. `eye`: centre of the lens, where the eye light sits.
-pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
+/// Traces one path. What most scenes do not need (a medium, moving bodies, photon maps, rare features) is there only with
+/// `EXTRAS`.
+pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: bool>(
     scene: &Prepared,
     mut ray: Ray,
-    eye: Vec3A,
-    (depth, follow): (u32, bool),
+    view: &View<'_>,
     sampler: S,
-    stack: &mut Stack,
+    traversal: &mut Traversal,
 ) -> Outcome {
     let mut out = Outcome::NOTHING;
     let mut throughput = Vec3A::ONE;
@@ -89,26 +123,109 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
     let mut feature_edge = 1;
     let mut way = 0.0f32;
     let mut tint = Vec3A::ONE;
+    // Whether the path is outside glass, where a medium is.
+    let mut outside = true;
+    // Edge at whose end the photon maps took over, what they gave, and the length of the path.
+    let mut gathered: Option<u32> = None;
+    let mut by_photons = Vec3A::ZERO;
+    let mut length = 0.0f32;
     let mut edge = 1;
     loop {
-        let hit = scene.bvh.closest(&ray, f32::INFINITY, stack);
+        let hit = scene.closest::<EXTRAS>(&ray, f32::INFINITY, traversal);
+        let before = throughput;
+        if EXTRAS
+            && outside
+            && let Some(medium) = &scene.medium
+        {
+            // Finite: an infinite thickness of a colour without extinction would not be a number.
+            let limit = hit.map_or(f32::MAX, |hit| hit.t);
+            match medium.fly(limit, sampler.group(2 * edge - 1)[3]) {
+                Flight::Passed(weight) => throughput *= weight,
+                Flight::Scattered(t, weight) => {
+                    // Features and the eye light belong to the surface ahead, whatever floats before it.
+                    if let Some(hit) = hit
+                        && (FEATURES && edge == feature_edge || FLASH && reuse == Reuse::Following)
+                    {
+                        let at = scene.interact::<EXTRAS>(&ray, &hit, traversal);
+                        let surface =
+                            &scene.surfaces[scene.geometry[hit.primitive as usize].material as usize];
+                        let event = surface.scatter.at(at.uv);
+                        if FEATURES && edge == feature_edge {
+                            way += hit.t;
+                            describe(&mut out, scene, &hit, &at, &event, tint, way);
+                            rarities(&mut out, scene, view, &hit, &at, traversal);
+                        }
+                        if FLASH
+                            && reuse == Reuse::Following
+                            && let Event::Lobe(lobe) = event
+                        {
+                            out.eye_light += eye_light(scene, view, before, &lobe, &at, -ray.direction);
+                        }
+                    }
+                    if FEATURES && edge == feature_edge + 1 {
+                        out.direct = out.color;
+                        direct_open = false;
+                    }
+                    if FLASH {
+                        if reuse == Reuse::Ending {
+                            out.flash_base = out.color;
+                            reuse = Reuse::Done;
+                        } else if reuse == Reuse::Following {
+                            reuse = Reuse::Ending;
+                        }
+                    }
+                    if edge >= view.depth {
+                        break;
+                    }
+                    throughput *= weight;
+                    let point = ray.origin + ray.direction * t;
+                    let u = sampler.group(2 * edge - 1);
+                    // The normal matters for skies alone, and light from there does not get through a medium.
+                    if let Some(light) = scene.lights.sample(point, Vec3A::Y, u) {
+                        let shadow = Ray { origin: point, direction: light.direction };
+                        if !scene.occluded::<EXTRAS>(&shadow, reach(&light), traversal) {
+                            let density = medium.phase(ray.direction, light.direction);
+                            let weight = power_heuristic(light.density, density) / light.density * density;
+                            out.color +=
+                                throughput * light.radiance * medium.transmittance(light.distance) * weight;
+                        }
+                    }
+                    let v = sampler.group(2 * edge);
+                    let direction = medium.scatter(ray.direction, v[0], v[1]);
+                    if !survives(&mut throughput, squared_index, edge, v[3]) {
+                        break;
+                    }
+                    previous = Some((medium.phase(ray.direction, direction), Vec3A::Y));
+                    ray = Ray { origin: point, direction };
+                    edge += 1;
+                    continue;
+                }
+            }
+        }
+        // With photon maps, light that meets the gathering ray later than directly is in the maps.
+        let counts = !EXTRAS || gathered.is_none_or(|g| edge == g + 1);
         let Some(hit) = hit else {
             if FEATURES && edge == feature_edge {
                 (out.albedo, out.normal, out.depth, out.material) = (Vec3A::ZERO, Vec3A::ZERO, 0.0, -1);
+                if EXTRAS {
+                    (out.brdf, out.motion, out.caustics) = (Vec3A::ZERO, [0.0; 2], 0.0);
+                }
             }
-            out.color += throughput * scene.lights.background(ray.direction, previous);
+            if counts {
+                out.color += throughput * scene.lights.background(ray.direction, previous);
+            }
             break;
         };
         let geometry = &scene.geometry[hit.primitive as usize];
         let surface = &scene.surfaces[geometry.material as usize];
-        let last = edge >= depth;
+        let last = edge >= view.depth;
         let shaded = !last || FEATURES && edge == feature_edge || FLASH && reuse == Reuse::Following;
         // At the end of the longest path only emission matters.
         if !(shaded || surface.emits) {
             break;
         }
-        let at = geometry.interact(&ray, &hit, &scene.attributes);
-        if surface.emits {
+        let at = scene.interact::<EXTRAS>(&ray, &hit, traversal);
+        if surface.emits && counts {
             out.color += throughput * emission(scene, geometry, &at, &ray, hit.t, previous);
         }
         if !shaded {
@@ -116,11 +233,11 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
         }
         let event = surface.scatter.at(at.uv);
         if FEATURES && edge == feature_edge {
-            out.albedo = tint * event.albedo();
-            out.normal = at.normal;
             way += hit.t;
-            out.depth = way;
-            out.material = geometry.material as i32;
+            describe(&mut out, scene, &hit, &at, &event, tint, way);
+            if EXTRAS {
+                rarities(&mut out, scene, view, &hit, &at, traversal);
+            }
         }
         if FEATURES && edge == feature_edge + 1 {
             out.direct = out.color;
@@ -129,6 +246,9 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
         if FLASH && reuse == Reuse::Ending {
             out.flash_base = out.color;
             reuse = Reuse::Done;
+        }
+        if EXTRAS {
+            length += hit.t;
         }
         let to_viewer = -ray.direction;
         let lobe = match event {
@@ -140,9 +260,12 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
                 let u = sampler.group(2 * edge);
                 let (direction, scale) = specular.follow(&at, to_viewer, u[2]);
                 throughput *= specular.tint() * scale;
-                if FEATURES && follow && edge == feature_edge {
+                if FEATURES && view.follow && edge == feature_edge {
                     tint *= specular.tint();
                     feature_edge += 1;
+                }
+                if EXTRAS && direction.dot(at.geometric) < 0.0 {
+                    outside = !at.front;
                 }
                 squared_index *= scale;
                 if !survives(&mut throughput, squared_index, edge, u[3]) {
@@ -155,41 +278,67 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
             }
         };
         if FLASH && reuse == Reuse::Following {
-            let to_eye = eye - at.point;
-            let squared = to_eye.length_squared().max(scene.least_eye_distance * scene.least_eye_distance);
-            let to_eye = to_eye.normalize_or(at.normal);
-            out.eye_light += throughput * lobe.eval(&at, to_viewer, to_eye).0 * (1.0 / squared);
+            out.eye_light += eye_light(scene, view, before, &lobe, &at, to_viewer);
         }
         if last {
             break;
         }
-        let u = sampler.group(2 * edge - 1);
-        // From where the shadow ray starts: a light's rim seen from beside it is another rim.
-        let origin = at.leave(at.geometric);
-        if let Some(light) = scene.lights.sample(origin, at.normal, u) {
-            let (value, density) = lobe.eval(&at, to_viewer, light.direction);
-            if density > 0.0 {
-                if FEATURES && edge == feature_edge {
-                    out.traced = 1.0;
-                }
-                let shadow = Ray { origin, direction: light.direction };
-                if !scene.bvh.occluded(&shadow, reach(&light), stack) {
-                    let weight = power_heuristic(light.density, density) / light.density;
-                    out.color += throughput * value * light.radiance * weight;
+        if EXTRAS
+            && view.gather
+            && let Some(photons) = view.photons
+            && let Lobe::Diffuse { albedo } = lobe
+        {
+            let left = view.depth - edge; // not the last edge
+            if gathered.is_some() {
+                by_photons += throughput * albedo * photons.global(&at, left) * FRAC_1_PI;
+                break;
+            }
+            let (caustic, _) = photons.caustic(&at, view.pixel * length, left);
+            by_photons += throughput * albedo * caustic * FRAC_1_PI;
+        }
+        if !EXTRAS || gathered.is_none() {
+            let u = sampler.group(2 * edge - 1);
+            // From where the shadow ray starts: a light's rim seen from beside it is another rim.
+            let origin = at.leave(at.geometric);
+            if let Some(light) = scene.lights.sample(origin, at.normal, u) {
+                let (value, density) = lobe.eval(&at, to_viewer, light.direction);
+                if density > 0.0 {
                     if FEATURES && edge == feature_edge {
-                        out.reached = 1.0;
+                        out.traced = 1.0;
+                    }
+                    let shadow = Ray { origin, direction: light.direction };
+                    if !scene.occluded::<EXTRAS>(&shadow, reach(&light), traversal) {
+                        let mut weight =
+                            Vec3A::splat(power_heuristic(light.density, density) / light.density);
+                        if EXTRAS
+                            && outside
+                            && let Some(medium) = &scene.medium
+                        {
+                            weight *= medium.transmittance(light.distance);
+                        }
+                        out.color += throughput * value * light.radiance * weight;
+                        if FEATURES && edge == feature_edge {
+                            out.reached = 1.0;
+                        }
                     }
                 }
             }
         }
         let v = sampler.group(2 * edge);
-        let Some(scattered) = lobe.sample(&at, to_viewer, v[0], v[1]) else { break };
+        let scattered = lobe.sample(&at, to_viewer, v[0], v[1]);
+        if EXTRAS && FEATURES && edge == feature_edge {
+            out.brdf = scattered.map_or(Vec3A::ZERO, |s| tint * s.weight);
+        }
+        let Some(scattered) = scattered else { break };
         throughput *= scattered.weight;
         if !survives(&mut throughput, squared_index, edge, v[3]) {
             break;
         }
         if FLASH && reuse == Reuse::Following && matches!(lobe, Lobe::Diffuse { .. }) {
             reuse = Reuse::Ending;
+        }
+        if EXTRAS && view.gather && gathered.is_none() && matches!(lobe, Lobe::Diffuse { .. }) {
+            gathered = Some(edge);
         }
         previous = Some((scattered.density, at.normal));
         ray = Ray { origin: at.leave(scattered.direction), direction: scattered.direction };
@@ -201,7 +350,68 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool>(
     if FLASH && reuse != Reuse::Done {
         out.flash_base = out.color;
     }
+    if EXTRAS {
+        out.color += by_photons;
+    }
     out
+}
+
+/// The usual features of a hit; `way`: length of the path to it.
+#[inline(always)]
+fn describe(
+    out: &mut Outcome,
+    scene: &Prepared,
+    hit: &Hit,
+    at: &Interaction,
+    event: &Event,
+    tint: Vec3A,
+    way: f32,
+) {
+    out.albedo = tint * event.albedo();
+    out.normal = at.normal;
+    out.depth = way;
+    out.material = scene.geometry[hit.primitive as usize].material as i32;
+}
+
+/// The features that few ask for.
+#[inline(never)]
+fn rarities(
+    out: &mut Outcome,
+    scene: &Prepared,
+    view: &View<'_>,
+    hit: &Hit,
+    at: &Interaction,
+    traversal: &Traversal,
+) {
+    // Where the path ends before a direction is sampled, this stands for the mean of what would be.
+    out.brdf = out.albedo;
+    if let Some(frames) = &view.frames {
+        let [start, end] = scene.over_a_frame(hit, at.point, traversal);
+        let shift = |from: [f32; 2], to: [f32; 2]| [to[0] - from[0], to[1] - from[1]];
+        out.motion = match (frames[0].project(start), frames[1].project(end)) {
+            (Some(from), Some(to)) => shift(from, to),
+            _ => [0.0; 2],
+        };
+    }
+    if let Some(photons) = view.photons {
+        out.caustics = photons.caustic(at, view.pixel * out.depth, DEEPEST).1;
+    }
+}
+
+/// Light of unit intensity at the eye, scattered by a lobe and without a shadow.
+#[inline(always)]
+fn eye_light(
+    scene: &Prepared,
+    view: &View<'_>,
+    throughput: Vec3A,
+    lobe: &Lobe,
+    at: &Interaction,
+    to_viewer: Vec3A,
+) -> Vec3A {
+    let to_eye = view.eye - at.point;
+    let squared = to_eye.length_squared().max(scene.least_eye_distance * scene.least_eye_distance);
+    let to_eye = to_eye.normalize_or(at.normal);
+    throughput * lobe.eval(at, to_viewer, to_eye).0 * (1.0 / squared)
 }
 
 /// Radiance of a hit towards the viewer, weighted against light sampling if that competed.
@@ -319,7 +529,7 @@ mod tests {
             uv: glam::Vec2::ZERO,
             clearance: 1e-4,
         };
-        let mut stack = scene.bvh.stack();
+        let mut stack = scene.traversal();
         let mut moments = Moments::default();
         for k in 0..60_000 {
             let sampler = Independent::new(strategy.len() as u64, k);
@@ -329,7 +539,7 @@ mod tests {
             {
                 let (value, density) = lobe.eval(&at, viewer, light.direction);
                 let ray = Ray { origin: at.leave(light.direction), direction: light.direction };
-                if density > 0.0 && !scene.bvh.occluded(&ray, reach(&light), &mut stack) {
+                if density > 0.0 && !scene.occluded::<false>(&ray, reach(&light), &mut stack) {
                     let weight =
                         if strategy == "both" { power_heuristic(light.density, density) } else { 1.0 };
                     sum += (value * light.radiance).x / light.density * weight;
@@ -348,8 +558,8 @@ mod tests {
         moments
     }
 
-    fn arriving(scene: &Prepared, ray: &Ray, previous: Option<(f32, Vec3A)>, stack: &mut Stack) -> Vec3A {
-        let Some(hit) = scene.bvh.closest(ray, f32::INFINITY, stack) else {
+    fn arriving(scene: &Prepared, ray: &Ray, previous: Option<(f32, Vec3A)>, stack: &mut Traversal) -> Vec3A {
+        let Some(hit) = scene.closest::<false>(ray, f32::INFINITY, stack) else {
             return scene.lights.background(ray.direction, previous);
         };
         let geometry = &scene.geometry[hit.primitive as usize];

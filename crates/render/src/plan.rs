@@ -8,7 +8,7 @@ use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Var
 use crate::film::Planes;
 use crate::path::Outcome;
 use crate::tally::Tally;
-use crate::{Keep, Prepared, Quantity, Record, RenderError};
+use crate::{Integrator, Keep, Quantity, Record, RenderError, RenderRequest};
 
 /// Values in a tally without features and flash: the colour.
 pub const COLOR: usize = 3;
@@ -18,6 +18,8 @@ pub const WITH_FEATURES: usize = COLOR + 12;
 pub const WITH_FLASH: usize = COLOR + 9;
 /// Colour, features, flash.
 pub const WITH_BOTH: usize = WITH_FEATURES + 9;
+/// All of that, then BRDF, motion, caustics.
+pub const WITH_ALL: usize = WITH_BOTH + 6;
 
 /// Where the value of a plane comes from; numbers count values of a tally.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +57,8 @@ pub struct Plan {
     pub features: bool,
     /// Whether the flash is gathered.
     pub flash: bool,
+    /// Whether the scene or the request needs what most do not; features and flash are then gathered together.
+    pub extras: bool,
 }
 
 /// Shadow rays that reached a light over shadow rays traced; zero if none was.
@@ -87,22 +91,31 @@ fn values(quantity: Quantity, features: bool) -> (usize, usize) {
         Quantity::Direct => (12, 3),
         Quantity::Material => (0, 0),
         Quantity::Flash => (if features { WITH_FEATURES } else { COLOR }, 3),
+        Quantity::Brdf => (WITH_BOTH, 3),
+        Quantity::Motion => (WITH_BOTH + 3, 2),
+        Quantity::Caustics => (WITH_BOTH + 5, 1),
     }
 }
 
 impl Plan {
-    /// Checks what is wanted against what the scene can give. `limit`: the most that is kept of anything.
-    pub fn new(scene: &Prepared, record: &Record, limit: Keep) -> Result<Self, RenderError> {
+    /// Checks what is wanted against what the scene can give, and its photon maps if there are some. `limit`: the most
+    /// that is kept of anything.
+    pub fn new(request: &RenderRequest<'_>, limit: Keep) -> Result<Self, RenderError> {
+        let (scene, record) = (request.scene, &request.record);
+        let mut can = scene.available().to_vec();
+        if request.photons.is_some() {
+            can.push(Quantity::Caustics);
+        }
         let both = |keep: Keep| Keep {
             variance: keep.variance && limit.variance,
             halves: keep.halves && limit.halves,
         };
         let kept: Vec<(Quantity, Keep)> = match record {
-            Record::Available => scene.available().iter().map(|q| (*q, limit)).collect(),
+            Record::Available => can.iter().map(|q| (*q, limit)).collect(),
             Record::Exactly(map) => map.iter().map(|(q, keep)| (*q, both(*keep))).collect(),
         };
-        if let Some((missing, _)) = kept.iter().find(|(q, _)| !scene.available().contains(q)) {
-            let names: Vec<&str> = scene.available().iter().map(|q| q.name()).collect();
+        if let Some((missing, _)) = kept.iter().find(|(q, _)| !can.contains(q)) {
+            let names: Vec<&str> = can.iter().map(|q| q.name()).collect();
             return Err(RenderError::Unavailable {
                 scene: scene.id().into(),
                 quantity: missing.name(),
@@ -111,7 +124,14 @@ impl Plan {
         }
         let flash = kept.iter().any(|(q, _)| *q == Quantity::Flash);
         let features = kept.iter().any(|(q, _)| *q != Quantity::Flash);
-        let mut plan = Self { kept, color: limit, sources: Vec::new(), features, flash };
+        let rare = |q: &Quantity| matches!(q, Quantity::Brdf | Quantity::Motion | Quantity::Caustics);
+        let extras = request.integrator != Integrator::PathTracing
+            || scene.medium.is_some()
+            || !scene.bodies.is_empty()
+            || kept.iter().any(|(q, _)| rare(q));
+        let both = extras && !kept.is_empty();
+        let (features, flash) = (features || both, flash || both);
+        let mut plan = Self { kept, color: limit, sources: Vec::new(), features, flash, extras };
         plan.list_sources();
         Ok(plan)
     }
@@ -238,7 +258,7 @@ impl Plan {
 
 /// The values of a tally in their order, and whether all are finite; if not, they are zero.
 #[inline(always)]
-pub fn tally_values<const FEATURES: bool, const FLASH: bool, const C: usize>(
+pub fn tally_values<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
     o: &Outcome,
 ) -> ([f32; C], bool) {
     let mut sum = o.color;
@@ -263,6 +283,12 @@ pub fn tally_values<const FEATURES: bool, const FLASH: bool, const C: usize>(
         put(o.flash_base, 3);
         put(o.eye_light, 3);
         put(both, 3);
+    }
+    if EXTRAS && FEATURES && FLASH {
+        let [x, y] = o.motion;
+        sum += o.brdf + Vec3A::new(x, y, o.caustics);
+        put(o.brdf, 3);
+        put(Vec3A::new(x, y, o.caustics), 3);
     }
     if sum.is_finite() { (out, true) } else { ([0.0; C], false) }
 }

@@ -1,8 +1,14 @@
 use glam::{Vec2, Vec3, Vec3A};
-use noisefloor_scenes::{CameraSpec, Color, EnvironmentMap, Material, Models, Scattering, Scene, Sky};
+use noisefloor_scenes::{
+    Body, CameraMove, CameraSpec, Color, EnvironmentMap, Material, Models, Scattering, Scene, Sky,
+};
+
+use obvhs::aabb::Aabb;
 
 use crate::bvh::{Bvh, Primitive};
+use crate::intersect::Moving;
 use crate::lights::{Lights, LightsBuilder, SunDisc};
+use crate::medium::Medium;
 use crate::surface::{Attributes, Geometry, NONE, Scatter, Surface, Tint};
 use crate::{Quantity, RenderError, available};
 
@@ -16,6 +22,18 @@ pub struct Prepared {
     pub(crate) attributes: Vec<Attributes>,
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) lights: Lights,
+    /// What light goes through outside glass.
+    pub(crate) medium: Option<Medium>,
+    /// What moves.
+    pub(crate) bodies: Vec<Moving>,
+    /// Part of a frame during which the shutter is open.
+    pub(crate) shutter: f32,
+    /// How the camera moves from frame to frame.
+    pub(crate) camera_move: Option<CameraMove>,
+    /// Sphere around everything.
+    pub(crate) center: Vec3A,
+    /// Radius of the sphere, positive.
+    pub(crate) radius: f32,
     /// Distances to the eye light below this count as this.
     pub(crate) least_eye_distance: f32,
     models: Models,
@@ -38,21 +56,33 @@ impl Prepared {
         let check = Check(&scene.id);
         check.scene(scene)?;
         let mut parts = Parts { scene, dropped: 0, ..Parts::new(scene) };
+        let still = Body::default();
+        let bodies: &[Body] = scene.animation.as_ref().map_or(&[], |a| &a.bodies);
+        let moves = |index: usize| bodies.iter().any(|b| b.meshes.contains(&index));
         for (index, mesh) in scene.meshes.iter().enumerate() {
-            parts.mesh(index, mesh, &check)?;
+            if !moves(index) {
+                parts.mesh(index, mesh, &still, &check)?;
+            }
         }
         for (index, sphere) in scene.spheres.iter().enumerate() {
             parts.sphere(index, sphere, &check)?;
         }
-        if parts.primitives.is_empty() {
+        let bodies = parts.bodies(bodies, &check)?;
+        if parts.primitives.is_empty() && bodies.is_empty() {
             return Err(RenderError::EmptyScene { scene: scene.id.to_string(), dropped: parts.dropped });
         }
-        let (low, high) = parts
-            .primitives
+        let mut reach: Vec<Aabb> = parts.primitives.iter().map(Primitive::bounds).collect();
+        for moving in &bodies {
+            for time in [0.0, 1.0] {
+                let center = moving.body.at(time).transform_point3a(moving.center);
+                reach.push(Aabb::new(center - moving.radius, center + moving.radius));
+            }
+        }
+        let (low, high) = reach
             .iter()
-            .map(Primitive::bounds)
             .fold((Vec3A::INFINITY, Vec3A::NEG_INFINITY), |(low, high), b| (low.min(b.min), high.max(b.max)));
         let radius = 0.5 * (high - low).length();
+        let animation = scene.animation.as_ref();
         let sun = scene.sun.map(|sun| {
             let half_angle = sun.half_angle_degrees.to_radians();
             SunDisc::new(Vec3A::from(sun.direction).normalize(), half_angle, sun.irradiance.into())
@@ -66,6 +96,12 @@ impl Prepared {
             attributes: parts.attributes,
             surfaces: parts.surfaces,
             lights,
+            medium: scene.medium.as_ref().map(Medium::new),
+            bodies,
+            shutter: animation.map_or(0.0, |a| a.shutter),
+            camera_move: animation.map(|a| a.camera),
+            center: (low + high) * 0.5,
+            radius: radius.max(f32::MIN_POSITIVE),
             least_eye_distance: LEAST_EYE_DISTANCE * radius,
             models: scene.models(),
             available: available(scene),
@@ -96,6 +132,12 @@ impl Prepared {
     pub fn dropped_triangles(&self) -> usize {
         self.dropped
     }
+}
+
+/// The coordinates that a body's movement adds to.
+fn way(body: &Body) -> f32 {
+    let spin = body.spin.map_or(0.0, |s| s.center.abs().max_element());
+    body.translation.abs().max_element() + spin
 }
 
 struct Parts<'a> {
@@ -141,9 +183,11 @@ impl<'a> Parts<'a> {
         &mut self,
         index: usize,
         mesh: &noisefloor_scenes::Mesh,
+        body: &Body,
         check: &Check<'_>,
     ) -> Result<(), RenderError> {
         let material = self.material(mesh.material, &format!("mesh {index}"), check)?;
+        let way = way(body);
         let textured = match &self.scene.materials[mesh.material].scattering {
             Scattering::Diffuse { albedo: c } | Scattering::Conductor { f0: c, .. } => {
                 matches!(c, Color::Texture(_))
@@ -190,7 +234,7 @@ impl<'a> Parts<'a> {
             } else {
                 NONE
             };
-            let mut geometry = Geometry::triangle(v, material, attributes);
+            let mut geometry = Geometry::triangle(v, material, attributes).moving(way);
             let surface = &self.surfaces[material as usize];
             if surface.emits {
                 geometry.light = self.lights.triangle(v, surface.emission);
@@ -199,6 +243,35 @@ impl<'a> Parts<'a> {
             self.primitives.push(Primitive::Triangle(v));
         }
         Ok(())
+    }
+
+    /// Bodies with their own hierarchies. Their primitives follow all others.
+    fn bodies(&mut self, bodies: &[Body], check: &Check<'_>) -> Result<Vec<Moving>, RenderError> {
+        let mut out = Vec::new();
+        for body in bodies {
+            let (first, before) = (self.geometry.len() as u32, self.primitives.len());
+            for &index in &body.meshes {
+                self.mesh(index, &self.scene.meshes[index], body, check)?;
+            }
+            let own = self.primitives.split_off(before);
+            let bounds = own.iter().map(Primitive::bounds);
+            let start = (Vec3A::INFINITY, Vec3A::NEG_INFINITY);
+            let (low, high) = bounds.fold(start, |(low, high), b| (low.min(b.min), high.max(b.max)));
+            if own.is_empty() {
+                continue;
+            }
+            out.push(Moving {
+                bvh: Bvh::new(&own),
+                body: body.clone(),
+                first,
+                center: (low + high) * 0.5,
+                // With room for the rounding of the test against it.
+                radius: 0.5001 * (high - low).length()
+                    + 1e-6 * (low.abs().max(high.abs())).max_element()
+                    + way(body) * 1e-6,
+            });
+        }
+        Ok(out)
     }
 
     fn sphere(
@@ -285,6 +358,11 @@ impl Check<'_> {
                 "sun half angle".into()
             })?;
             self.radiance(sun.irradiance, || "sun irradiance".into())?;
+        }
+        let problem = scene.medium.as_ref().and_then(|medium| medium.problem(scene));
+        let problem = problem.or_else(|| scene.animation.as_ref().and_then(|a| a.problem(scene)));
+        if let Some((what, value, allowed)) = problem {
+            return self.fail(what, value, allowed);
         }
         match &scene.sky {
             Some(Sky::Constant(radiance)) => self.radiance(*radiance, || "sky".into()),

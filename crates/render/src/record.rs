@@ -26,11 +26,20 @@ pub enum Quantity {
     Material,
     /// [`noisefloor_frame::Flash::Parts`] (moon2013flash, Sec. 3.1).
     Flash,
+    /// [`FeatureId::Brdf`]: mean over the samples of BRDF times cosine over density for the direction that was sampled, 0
+    /// where none was (rousselle2013rdfc, Fig. 9); reflectance of specular surfaces, 0 for background.
+    Brdf,
+    /// [`FeatureId::Motion`]: where the point that is seen will be on the next frame's image less where it is on this one's,
+    /// in pixels, right and down, both at the moment when the shutter opens; 0 for background.
+    Motion,
+    /// [`FeatureId::Caustics`]: caustic photons per area around the hit, per path of light that was followed; in 1 over
+    /// squared scene units. Needs photon maps.
+    Caustics,
 }
 
 impl Quantity {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 10] = [
         Self::Albedo,
         Self::Normal,
         Self::Depth,
@@ -38,6 +47,9 @@ impl Quantity {
         Self::Direct,
         Self::Material,
         Self::Flash,
+        Self::Brdf,
+        Self::Motion,
+        Self::Caustics,
     ];
 
     /// Name in study files and on the command line.
@@ -51,6 +63,9 @@ impl Quantity {
             Self::Direct => "direct",
             Self::Material => "material",
             Self::Flash => "flash",
+            Self::Brdf => "brdf",
+            Self::Motion => "motion",
+            Self::Caustics => "caustics",
         }
     }
 
@@ -70,6 +85,9 @@ impl Quantity {
             Self::Visibility => FeatureId::Visibility,
             Self::Direct => FeatureId::Direct,
             Self::Material => FeatureId::Material,
+            Self::Brdf => FeatureId::Brdf,
+            Self::Motion => FeatureId::Motion,
+            Self::Caustics => FeatureId::Caustics,
             Self::Flash => return None,
         })
     }
@@ -115,7 +133,7 @@ impl Record {
     }
 }
 
-/// What a scene can give: visibility and direct light need a light, the flash also needs a surface that is not
+/// What a scene can give without photon maps: motion needs an animation, visibility and direct light need a light, the flash also needs a surface that is not
 /// perfectly specular.
 #[must_use]
 pub fn available(scene: &Scene) -> Vec<Quantity> {
@@ -130,6 +148,8 @@ pub fn available(scene: &Scene) -> Vec<Quantity> {
         .filter(|q| match q {
             Quantity::Visibility | Quantity::Direct => lit,
             Quantity::Flash => lit && rough,
+            Quantity::Motion => scene.animation.is_some(),
+            Quantity::Caustics => false,
             _ => true,
         })
         .collect()

@@ -3,15 +3,16 @@ use std::time::Instant;
 
 use noisefloor_frame::{Counts, Estimate, Frame, Image, Provenance, Reference, Samples, Sampling};
 
-use crate::bvh::{Ray, Stack};
+use crate::bvh::Ray;
 use crate::camera::Eye;
 use crate::film::{Extent, Planes, develop};
-use crate::path::trace;
-use crate::plan::{COLOR, Plan, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
-use crate::request::{LONGEST_SEQUENCE, REVISION};
+use crate::intersect::Traversal;
+use crate::path::{View, trace};
+use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
+use crate::request::{DEEPEST, LONGEST_SEQUENCE, REVISION};
 use crate::sampler::{Independent, OwenSobol, Sampler, Sequence, SobolTables, pixel_key};
 use crate::tally::Tally;
-use crate::{FeatureHit, Keep, Progress, RenderError, RenderRequest};
+use crate::{FeatureHit, Integrator, Keep, Progress, RenderError, RenderRequest};
 
 /// Sequences of a reference are numbered from here on, those of a frame from 0: equal seeds do not make a frame a part
 /// of its own reference.
@@ -28,7 +29,7 @@ const REFERENCE_SEQUENCES: u32 = 1 << 16;
 pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Frame, RenderError> {
     request.check()?;
     let limit = if request.spp >= 2 { Keep::ALL } else { Keep::MEAN };
-    let plan = Plan::new(request.scene, &request.record, limit)?;
+    let plan = Plan::new(request, limit)?;
     let start = Instant::now();
     let dropped = AtomicU64::new(0);
     let shot = Shot::new(request, &plan, &dropped);
@@ -71,7 +72,7 @@ pub fn render_reference(
     if request.sample_start != 0 {
         return wrong("sample_start", request.sample_start, "0 for a reference".into());
     }
-    let plan = Plan::new(request.scene, &request.record, Keep::MEAN)?;
+    let plan = Plan::new(request, Keep::MEAN)?;
     let start = Instant::now();
     let dropped = AtomicU64::new(0);
     let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &dropped) };
@@ -92,6 +93,9 @@ pub fn render_reference(
     Ok(reference)
 }
 
+/// Random numbers of the moment of a sample: beyond those of the longest path.
+const TIME_GROUP: u32 = 2 * DEEPEST + 1;
+
 /// A frame with a black colour, to be filled.
 pub(crate) fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sampling) -> Frame {
     Frame::from_color(Estimate::from_mean(Image::new(request.width, request.height, 3)), samples, sampling)
@@ -109,10 +113,26 @@ pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, non_finite: 
     if request.feature_hit != FeatureHit::First {
         extra.insert("feature_hit".into(), request.feature_hit.name().into());
     }
+    if let Some(maps) = request.photons {
+        let s = maps.settings();
+        extra.insert("photon_map_seed".into(), maps.seed().to_string());
+        extra.insert("photon_paths".into(), format!("{} global, {} caustic", s.paths, s.caustic_paths));
+        extra.insert(
+            "photon_radii".into(),
+            format!("{} global, {} px caustic, at most {}", s.radius, s.caustic_pixels, s.caustic_radius),
+        );
+    }
+    if request.scene.shutter > 0.0 && !request.scene.bodies.is_empty() {
+        extra.insert("shutter".into(), request.scene.shutter.to_string());
+    }
+    let integrator = match request.integrator {
+        Integrator::PathTracing => "path",
+        Integrator::PhotonMapping => "photon-mapping",
+    };
     Provenance {
         scene: Some(request.scene.id().into()),
         renderer: Some(format!("noisefloor {} (revision {REVISION})", env!("CARGO_PKG_VERSION"))),
-        integrator: Some(format!("path depth={}", request.depth)),
+        integrator: Some(format!("{integrator} depth={}", request.depth)),
         sampler: None,
         seed: Some(request.seed),
         filter: Some(request.filter),
@@ -128,6 +148,8 @@ pub(crate) struct Shot<'a> {
     request: &'a RenderRequest<'a>,
     plan: &'a Plan,
     eye: Eye,
+    /// The camera one frame later, if anything moves.
+    next: Option<Eye>,
     parts: Option<u32>,
     sobol: SobolTables,
     non_finite: &'a AtomicU64,
@@ -135,52 +157,58 @@ pub(crate) struct Shot<'a> {
 
 /// What a thread keeps from pixel to pixel.
 struct Scratch<const C: usize> {
-    stack: Stack,
+    traversal: Traversal,
     tally: Tally<C>,
 }
 
 impl<'a> Shot<'a> {
     pub(crate) fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
         let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
-        Self { request, plan, eye, parts: None, sobol: SobolTables::new(), non_finite }
+        let next = request.scene.camera_move.map(|step| {
+            Eye::new(&step.apply(&request.scene.camera, 1.0), request.width, request.height, request.filter)
+        });
+        Self { request, plan, eye, next, parts: None, sobol: SobolTables::new(), non_finite }
     }
 
     /// Picks the code for what is recorded, so that what is not recorded costs nothing.
     fn dispatch(&self, planes: usize, progress: &dyn Progress) -> Result<Planes, RenderError> {
-        match (self.plan.features, self.plan.flash) {
-            (false, false) => self.run::<false, false, COLOR>(planes, progress),
-            (true, false) => self.run::<true, false, WITH_FEATURES>(planes, progress),
-            (false, true) => self.run::<false, true, WITH_FLASH>(planes, progress),
-            (true, true) => self.run::<true, true, WITH_BOTH>(planes, progress),
+        match (self.plan.extras, self.plan.features, self.plan.flash) {
+            (true, false, _) => self.run::<false, false, true, COLOR>(planes, progress),
+            (true, true, _) => self.run::<true, true, true, WITH_ALL>(planes, progress),
+            (false, false, false) => self.run::<false, false, false, COLOR>(planes, progress),
+            (false, true, false) => self.run::<true, false, false, WITH_FEATURES>(planes, progress),
+            (false, false, true) => self.run::<false, true, false, WITH_FLASH>(planes, progress),
+            (false, true, true) => self.run::<true, true, false, WITH_BOTH>(planes, progress),
         }
     }
 
-    fn run<const FEATURES: bool, const FLASH: bool, const C: usize>(
+    fn run<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
         &self,
         planes: usize,
         progress: &dyn Progress,
     ) -> Result<Planes, RenderError> {
         let request = self.request;
         let extent = Extent { width: request.width, height: request.height, samples: request.spp };
-        let scratch = || Scratch::<C> { stack: request.scene.bvh.stack(), tally: Tally::new() };
+        let scratch = || Scratch::<C> { traversal: request.scene.traversal(), tally: Tally::new() };
         develop(extent, planes, progress, scratch, |scratch, x, y, out| match self.parts {
             Some(parts) => {
                 let key = pixel_key(request.seed, (y * request.width + x) as u64);
-                self.reference_pixel::<FEATURES, FLASH, C>(scratch, x, y, key, parts, out)
+                self.reference_pixel::<FEATURES, FLASH, EXTRAS, C>(scratch, x, y, key, parts, out)
             }
             None => {
-                let Scratch { stack, tally } = scratch;
+                let Scratch { traversal, tally } = scratch;
                 tally.clear();
-                let material = self.samples::<FEATURES, FLASH, C>(stack, tally, (x, y), self.range());
+                let material =
+                    self.samples::<FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), self.range());
                 self.plan.write(tally, material, out);
             }
         })
     }
 
     /// Adds a range of a pixel's samples to a tally; returns the material of the first one.
-    pub(crate) fn samples<const FEATURES: bool, const FLASH: bool, const C: usize>(
+    pub(crate) fn samples<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
         &self,
-        stack: &mut Stack,
+        traversal: &mut Traversal,
         tally: &mut Tally<C>,
         (x, y): (usize, usize),
         range: std::ops::Range<u32>,
@@ -189,12 +217,12 @@ impl<'a> Shot<'a> {
         match self.request.sampling {
             Sampling::Independent => {
                 let sampler = |k| Independent::new(key, k);
-                self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), range, sampler)
+                self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), range, sampler)
             }
             Sampling::LowDiscrepancy => {
                 let halves = [0, 1].map(|half| Sequence::new(key, half));
                 let sampler = |k: u32| OwenSobol::new(&self.sobol, &halves[(k & 1) as usize], k >> 1);
-                self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), range, sampler)
+                self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), range, sampler)
             }
         }
     }
@@ -204,7 +232,7 @@ impl<'a> Shot<'a> {
     }
 
     /// Fills the tally with the samples of a pixel; returns the material of the first one.
-    fn pixel<S: Sampler, const FEATURES: bool, const FLASH: bool, const C: usize>(
+    fn pixel<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
         &self,
         scratch: &mut Scratch<C>,
         x: usize,
@@ -213,30 +241,41 @@ impl<'a> Shot<'a> {
         sampler: impl Fn(u32) -> S,
     ) -> i32 {
         scratch.tally.clear();
-        let Scratch { stack, tally } = scratch;
-        self.extend::<_, FEATURES, FLASH, C>(stack, tally, (x, y), samples, sampler)
+        let Scratch { traversal, tally } = scratch;
+        self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), samples, sampler)
     }
 
     /// Adds samples of a pixel to a tally; returns the material of the first one.
     #[inline(always)]
-    fn extend<S: Sampler, const FEATURES: bool, const FLASH: bool, const C: usize>(
+    fn extend<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
         &self,
-        stack: &mut Stack,
+        traversal: &mut Traversal,
         tally: &mut Tally<C>,
         (x, y): (usize, usize),
         samples: std::ops::Range<u32>,
         sampler: impl Fn(u32) -> S,
     ) -> i32 {
-        let (scene, depth, eye) = (self.request.scene, self.request.depth, self.eye.position());
-        let follow = self.request.feature_hit == FeatureHit::ThroughSpecular;
+        let scene = self.request.scene;
+        let view = View {
+            eye: self.eye.position(),
+            depth: self.request.depth,
+            follow: self.request.feature_hit == FeatureHit::ThroughSpecular,
+            photons: self.request.photons,
+            gather: self.request.integrator == Integrator::PhotonMapping,
+            pixel: self.eye.pixel(),
+            frames: self.next.map(|next| [self.eye, next]),
+        };
         let first = samples.start;
         let mut material = -1;
         for k in samples {
             let sampler = sampler(k);
             let (origin, direction) = self.eye.ray(x, y, sampler.group(0));
             let ray = Ray { origin, direction };
-            let outcome = trace::<S, FEATURES, FLASH>(scene, ray, eye, (depth, follow), sampler, stack);
-            let (values, finite) = tally_values::<FEATURES, FLASH, C>(&outcome);
+            if EXTRAS && !scene.bodies.is_empty() {
+                scene.set_time(traversal, sampler.group(TIME_GROUP)[0]);
+            }
+            let outcome = trace::<S, FEATURES, FLASH, EXTRAS>(scene, ray, &view, sampler, traversal);
+            let (values, finite) = tally_values::<FEATURES, FLASH, EXTRAS, C>(&outcome);
             if !finite {
                 self.non_finite.fetch_add(1, Ordering::Relaxed);
             }
@@ -249,7 +288,7 @@ impl<'a> Shot<'a> {
     }
 
     /// Colour means of the parts, then the means over all parts.
-    fn reference_pixel<const FEATURES: bool, const FLASH: bool, const C: usize>(
+    fn reference_pixel<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
         &self,
         scratch: &mut Scratch<C>,
         x: usize,
@@ -264,8 +303,13 @@ impl<'a> Shot<'a> {
         for (part, color) in colors.chunks_exact_mut(3).enumerate() {
             let sequence = Sequence::new(key, REFERENCE_SEQUENCES + part as u32);
             let sampler = |k| OwenSobol::new(&self.sobol, &sequence, k);
-            let first =
-                self.pixel::<_, FEATURES, FLASH, C>(scratch, x, y, 0..self.request.spp / parts, sampler);
+            let first = self.pixel::<_, FEATURES, FLASH, EXTRAS, C>(
+                scratch,
+                x,
+                y,
+                0..self.request.spp / parts,
+                sampler,
+            );
             if part == 0 {
                 material = first;
             }

@@ -1,6 +1,6 @@
 use noisefloor_frame::{PixelFilter, Sampling};
 
-use crate::{FeatureHit, Prepared, Record, RenderError};
+use crate::{FeatureHit, Integrator, PhotonMaps, Prepared, Record, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
 pub const REVISION: u32 = 3;
@@ -37,6 +37,10 @@ pub struct RenderRequest<'a> {
     pub record: Record,
     /// Where along a path the features are taken.
     pub feature_hit: FeatureHit,
+    /// How light is carried; photon mapping needs `photons`.
+    pub integrator: Integrator,
+    /// Photon maps of the scene.
+    pub photons: Option<&'a PhotonMaps>,
 }
 
 impl<'a> RenderRequest<'a> {
@@ -55,6 +59,8 @@ impl<'a> RenderRequest<'a> {
             sampling: Sampling::Independent,
             record: Record::Available,
             feature_hit: FeatureHit::First,
+            integrator: Integrator::PathTracing,
+            photons: None,
         }
     }
 
@@ -75,6 +81,16 @@ impl<'a> RenderRequest<'a> {
         }
         if self.sampling == Sampling::LowDiscrepancy && end.div_ceil(2) > LONGEST_SEQUENCE {
             return range("spp", end.to_string(), "at most 131072 with low-discrepancy sampling");
+        }
+        match self.photons {
+            None if self.integrator == Integrator::PhotonMapping => {
+                return range("photons", "absent".into(), "photon maps, for photon mapping");
+            }
+            Some(maps) if maps.scene() != self.scene.id() => {
+                let expected = format!("of scene `{}`", self.scene.id());
+                return range("photons", format!("of scene `{}`", maps.scene()), &expected);
+            }
+            _ => {}
         }
         Ok(())
     }

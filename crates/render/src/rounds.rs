@@ -8,7 +8,7 @@ use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelI
 use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use crate::film::Planes;
-use crate::plan::{COLOR, Plan, WITH_BOTH, WITH_FEATURES, WITH_FLASH};
+use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH};
 use crate::render::{Shot, blank, provenance};
 use crate::request::LONGEST_SEQUENCE;
 use crate::tally::Tally;
@@ -24,7 +24,7 @@ const PIECE: usize = 64;
 /// number of samples carry a map of it. A density that was made from the samples themselves biases their mean; this
 /// type does not know where its numbers come from.
 ///
-/// A pixel takes 208 bytes for the colour alone and 1216 with features and flash, and 56 to 392 more for every doubling
+/// A pixel takes 208 bytes for the colour alone and 1216 with features and flash (1490 with all there is), and 56 to 490 more for every doubling
 /// of its samples beyond 16.
 #[derive(Debug)]
 pub struct Rounds<'a> {
@@ -51,6 +51,9 @@ enum Pixels {
     Features(Vec<Pixel<WITH_FEATURES>>),
     Flash(Vec<Pixel<WITH_FLASH>>),
     Both(Vec<Pixel<WITH_BOTH>>),
+    /// The colour alone, of a scene that needs more than most.
+    ExtraColor(Vec<Pixel<COLOR>>),
+    All(Vec<Pixel<WITH_ALL>>),
 }
 
 impl<'a> Rounds<'a> {
@@ -63,10 +66,12 @@ impl<'a> Rounds<'a> {
         if request.spp < 2 {
             return Err(wrong("spp", request.spp.to_string(), "at least 2 in the first round".into()));
         }
-        let plan = Plan::new(request.scene, &request.record, Keep::ALL)?;
+        let plan = Plan::new(request, Keep::ALL)?;
         let count = request.width * request.height;
         let first = request.sample_start;
         let pixels = match (plan.features, plan.flash) {
+            _ if plan.extras && plan.features => Pixels::All(empty(count, first)),
+            _ if plan.extras => Pixels::ExtraColor(empty(count, first)),
             (false, false) => Pixels::Color(empty(count, first)),
             (true, false) => Pixels::Features(empty(count, first)),
             (false, true) => Pixels::Flash(empty(count, first)),
@@ -103,10 +108,22 @@ impl<'a> Rounds<'a> {
         let non_finite = AtomicU64::new(0);
         let shot = Shot::new(&self.request, &self.plan, &non_finite);
         let done = match &mut self.pixels {
-            Pixels::Color(pixels) => grow::<false, false, _>(pixels, &shot, &self.request, extra, progress),
-            Pixels::Features(pixels) => grow::<true, false, _>(pixels, &shot, &self.request, extra, progress),
-            Pixels::Flash(pixels) => grow::<false, true, _>(pixels, &shot, &self.request, extra, progress),
-            Pixels::Both(pixels) => grow::<true, true, _>(pixels, &shot, &self.request, extra, progress),
+            Pixels::Color(pixels) => {
+                grow::<false, false, false, _>(pixels, &shot, &self.request, extra, progress)
+            }
+            Pixels::Features(pixels) => {
+                grow::<true, false, false, _>(pixels, &shot, &self.request, extra, progress)
+            }
+            Pixels::Flash(pixels) => {
+                grow::<false, true, false, _>(pixels, &shot, &self.request, extra, progress)
+            }
+            Pixels::Both(pixels) => {
+                grow::<true, true, false, _>(pixels, &shot, &self.request, extra, progress)
+            }
+            Pixels::ExtraColor(pixels) => {
+                grow::<false, false, true, _>(pixels, &shot, &self.request, extra, progress)
+            }
+            Pixels::All(pixels) => grow::<true, true, true, _>(pixels, &shot, &self.request, extra, progress),
         };
         self.rounds += 1;
         self.seconds += start.elapsed().as_secs_f64();
@@ -126,9 +143,14 @@ impl<'a> Rounds<'a> {
         let same = std::ptr::eq(a.scene, b.scene)
             && (a.width, a.height, a.seed, a.depth) == (b.width, b.height, b.seed, b.depth)
             && (a.filter, a.sampling) == (b.filter, b.sampling)
-            && (&a.record, a.feature_hit) == (&b.record, b.feature_hit);
+            && (&a.record, a.feature_hit, a.integrator) == (&b.record, b.feature_hit, b.integrator)
+            && match (a.photons, b.photons) {
+                (None, None) => true,
+                (Some(a), Some(b)) => std::ptr::eq(a, b),
+                _ => false,
+            };
         if !same {
-            let expected = "the same scene, size, random seed, depth, filter, sampling and record".to_owned();
+            let expected = "the same scene, size, random seed, depth, filter, sampling, integrator, photon maps and record".to_owned();
             return Err(wrong("range", "of another request".into(), expected));
         }
         let start = b.sample_start;
@@ -141,6 +163,8 @@ impl<'a> Rounds<'a> {
             (Pixels::Features(a), Pixels::Features(b)) => join(a, b),
             (Pixels::Flash(a), Pixels::Flash(b)) => join(a, b),
             (Pixels::Both(a), Pixels::Both(b)) => join(a, b),
+            (Pixels::ExtraColor(a), Pixels::ExtraColor(b)) => join(a, b),
+            (Pixels::All(a), Pixels::All(b)) => join(a, b),
             _ => unreachable!("equal records make equal plans"),
         }
         self.rounds += next.rounds;
@@ -175,6 +199,8 @@ impl<'a> Rounds<'a> {
             Pixels::Features(pixels) => planes(pixels, &self.plan),
             Pixels::Flash(pixels) => planes(pixels, &self.plan),
             Pixels::Both(pixels) => planes(pixels, &self.plan),
+            Pixels::ExtraColor(pixels) => planes(pixels, &self.plan),
+            Pixels::All(pixels) => planes(pixels, &self.plan),
         };
         let mut frame = blank(request, samples, request.sampling);
         self.plan.fill(&mut frame, planes, request.width, request.height)?;
@@ -203,6 +229,8 @@ impl<'a> Rounds<'a> {
             Pixels::Features(pixels) => of(pixels),
             Pixels::Flash(pixels) => of(pixels),
             Pixels::Both(pixels) => of(pixels),
+            Pixels::ExtraColor(pixels) => of(pixels),
+            Pixels::All(pixels) => of(pixels),
         }
     }
 }
@@ -215,14 +243,14 @@ fn empty<const C: usize>(count: usize, first: u32) -> Vec<Pixel<C>> {
     vec![Pixel { tally: Tally::new(), material: -1, end: first }; count]
 }
 
-fn grow<const FEATURES: bool, const FLASH: bool, const C: usize>(
+fn grow<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
     pixels: &mut [Pixel<C>],
     shot: &Shot<'_>,
     request: &RenderRequest<'_>,
     extra: &[u32],
     progress: &dyn Progress,
 ) -> Result<(), RenderError> {
-    let stack = || request.scene.bvh.stack();
+    let stack = || request.scene.traversal();
     let pieces = pixels.par_chunks_mut(PIECE).zip(extra.par_chunks(PIECE)).enumerate();
     pieces.try_for_each_init(stack, |stack, (piece, (pixels, extra))| {
         for (k, (pixel, extra)) in pixels.iter_mut().zip(extra).enumerate() {
@@ -233,7 +261,8 @@ fn grow<const FEATURES: bool, const FLASH: bool, const C: usize>(
             let at = (at % request.width, at / request.width);
             let range = pixel.end..pixel.end + extra; // checked before any work
             let first = pixel.end == request.sample_start;
-            let material = shot.samples::<FEATURES, FLASH, C>(stack, &mut pixel.tally, at, range.clone());
+            let material =
+                shot.samples::<FEATURES, FLASH, EXTRAS, C>(stack, &mut pixel.tally, at, range.clone());
             if first {
                 pixel.material = material;
             }

@@ -177,6 +177,12 @@ impl Geometry {
         }
     }
 
+    /// For a primitive that moves this far: rounding grows with the coordinates on its way.
+    pub fn moving(mut self, way: f32) -> Self {
+        self.clearance += CLEARANCE * way;
+        self
+    }
+
     /// Everything about a hit of `ray` on this primitive.
     #[inline(always)]
     pub fn interact(&self, ray: &Ray, hit: &Hit, attributes: &[Attributes]) -> Interaction {

@@ -213,13 +213,70 @@ fn background_is_named_and_dark() {
     assert_eq!(frame.features[&FeatureId::Material].mean.data(), [-1.0]);
     assert_eq!(frame.features[&FeatureId::Depth].mean.data(), [0.0]);
     let names: Vec<&str> = available(&scene).into_iter().map(Quantity::name).collect();
-    assert_eq!(names, ["albedo", "normal", "depth", "material"], "there is no light");
+    assert_eq!(names, ["albedo", "normal", "depth", "material", "brdf"], "there is no light");
     let prepared = Prepared::new(&scene).unwrap();
     let record = Record::exactly([Quantity::Flash]);
     let error =
         render(&RenderRequest { record, ..RenderRequest::new(&prepared, 1, 1, 2) }, &Silent).unwrap_err();
     assert!(matches!(error, RenderError::Unavailable { quantity: "flash", .. }), "{error}");
-    assert!(error.to_string().ends_with("it can give: albedo, normal, depth, material"), "{error}");
+    assert!(error.to_string().ends_with("it can give: albedo, normal, depth, material, brdf"), "{error}");
+}
+
+#[test]
+fn the_mean_brdf_sample_is_the_reflectance_of_the_surface() {
+    let of = |scattering: Scattering, spp: u32| {
+        let mut scene = with_sky(empty(camera(Vec3::Z * 4.0, Vec3::ZERO, 5.0)), 1.0);
+        let material = add_material(&mut scene, scattering, 0.0);
+        sphere(&mut scene, Vec3::ZERO, 1.0, material);
+        let prepared = Prepared::new(&scene).unwrap();
+        let record = Record::exactly([Quantity::Brdf, Quantity::Albedo]);
+        render(&RenderRequest { record, depth: 2, ..RenderRequest::new(&prepared, 1, 1, spp) }, &Silent)
+            .unwrap()
+    };
+    for (scattering, truth) in [
+        (diffuse(0.3), 0.3),
+        (Scattering::Mirror { reflectance: Vec3::splat(0.8) }, 0.8),
+        (Scattering::Glass { ior: 1.5 }, 1.0),
+    ] {
+        let brdf = &of(scattering, 16).features[&FeatureId::Brdf];
+        assert!(brdf.mean.data().iter().all(|v| (v - truth).abs() < 1e-6));
+        assert!(brdf.variance.as_ref().unwrap().mean_variance().data().iter().all(|v| *v < 1e-12));
+    }
+    // Under a white sky a surface looks as bright as it reflects: two estimates of the same integral.
+    let frame = of(conductor(0.9, 0.6), 4096);
+    let brdf = &frame.features[&FeatureId::Brdf];
+    let at = |estimate: &noisefloor_frame::Estimate| {
+        let variance = estimate.variance.as_ref().unwrap().mean_variance().data()[0];
+        (f64::from(estimate.mean.data()[0]), f64::from(variance))
+    };
+    let ((a, va), (b, vb)) = (at(brdf), at(&frame.color));
+    assert!((a - b).abs() < 4.5 * (va + vb).sqrt(), "{a} {b}");
+    assert!(va > 0.0 && a < 0.9 && (va + vb).sqrt() < 0.01, "{a} ± {}", va.sqrt());
+    assert_eq!(frame.features[&FeatureId::Albedo].mean.data()[0], 0.9);
+}
+
+#[test]
+fn rare_features_change_nothing_else() {
+    let prepared = Prepared::new(&cornell()).unwrap();
+    let with = |record| {
+        render(&RenderRequest { record, ..RenderRequest::new(&prepared, 12, 9, 8) }, &Silent).unwrap()
+    };
+    let usual = [
+        Quantity::Albedo,
+        Quantity::Normal,
+        Quantity::Depth,
+        Quantity::Visibility,
+        Quantity::Direct,
+        Quantity::Flash,
+    ];
+    let few = with(Record::exactly(usual));
+    let many = with(Record::Available);
+    assert!(few.color == many.color && few.flash == many.flash);
+    for (id, feature) in &few.features {
+        assert!(*feature == many.features[id], "{id:?}");
+    }
+    assert!(many.features.contains_key(&FeatureId::Brdf) && !few.features.contains_key(&FeatureId::Brdf));
+    assert!(many.flash == with(Record::exactly([Quantity::Flash, Quantity::Brdf])).flash);
 }
 
 #[test]

@@ -78,7 +78,7 @@ impl Body {
     }
 
     /// The same movement from a later moment on.
-    fn from_frame(&self, frames: f32) -> Self {
+    fn later(&self, frames: f32) -> Self {
         let spin = self.spin.map(|s| Spin { center: s.center + self.translation * frames, ..s });
         Self { spin, ..self.clone() }
     }
@@ -173,7 +173,7 @@ impl Scene {
                     *mesh = moved;
                 }
             }
-            *body = body.from_frame(frames);
+            *body = body.later(frames);
         }
         self
     }

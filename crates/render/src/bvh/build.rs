@@ -52,8 +52,11 @@ struct Collapse<'a> {
 }
 
 impl Bvh {
-    /// Builds the hierarchy; hits name primitives by their index here. `primitives` is not empty.
+    /// Builds the hierarchy; hits name primitives by their index here. Nothing is hit if there are none.
     pub fn new(primitives: &[Primitive]) -> Self {
+        if primitives.is_empty() {
+            return Self { nodes: vec![empty_node()], triangles: vec![], spheres: vec![], stack_size: 4 };
+        }
         let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
         let params = BvhBuildParams {
             max_prims_per_leaf: 1,

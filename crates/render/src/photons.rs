@@ -1,0 +1,324 @@
+//! Photon maps (Jensen 1996): light that was followed from its sources, kept where it meets diffuse surfaces.
+//!
+//! Two maps are kept. The *caustic* map has photons that only specular and glossy surfaces turned on their way; it is
+//! looked at directly, with a radius that follows the size of a pixel. The *global* map has all photons and is looked at
+//! from where a gathering ray arrives.
+
+use glam::Vec3A;
+use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use serde::{Deserialize, Serialize};
+
+use crate::RenderError;
+use crate::bsdf::Event;
+use crate::bvh::Ray;
+use crate::intersect::Traversal;
+use crate::prepare::Prepared;
+use crate::request::DEEPEST;
+use crate::sampler::{Independent, Sampler, mix, pixel_key};
+use crate::surface::Interaction;
+
+/// What makes a pair of photon maps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PhotonSettings {
+    /// Light paths for the global map, in 1..=2^26.
+    pub paths: u32,
+    /// Light paths for the caustic map, in 1..=2^26.
+    pub caustic_paths: u32,
+    /// Radius of a look at the global map as a fraction of the scene's radius, in (0, 1].
+    pub radius: f32,
+    /// Radius of a look at the caustic map in pixels, as wide as they are where they meet the surface; in (0, 1000].
+    pub caustic_pixels: f32,
+    /// The largest radius of a look at the caustic map as a fraction of the scene's radius, in (0, 1].
+    pub caustic_radius: f32,
+}
+
+impl Default for PhotonSettings {
+    fn default() -> Self {
+        Self {
+            paths: 200_000,
+            caustic_paths: 1_000_000,
+            radius: 0.02,
+            caustic_pixels: 2.0,
+            caustic_radius: 0.02,
+        }
+    }
+}
+
+impl PhotonSettings {
+    /// All three radii times `factor`.
+    #[must_use]
+    pub fn scaled(self, factor: f32) -> Self {
+        Self {
+            radius: self.radius * factor,
+            caustic_pixels: self.caustic_pixels * factor,
+            caustic_radius: self.caustic_radius * factor,
+            ..self
+        }
+    }
+
+    fn check(&self) -> Result<(), RenderError> {
+        let paths = [("paths", self.paths), ("caustic-paths", self.caustic_paths)];
+        if let Some((parameter, value)) = paths.into_iter().find(|(_, v)| !(1..=1 << 26).contains(v)) {
+            return Err(wrong(parameter, value.to_string(), "1 to 67108864 light paths"));
+        }
+        let radii = [("radius", self.radius, 1.0), ("caustic-radius", self.caustic_radius, 1.0)];
+        let radii = radii.into_iter().chain([("caustic-pixels", self.caustic_pixels, 1000.0)]);
+        for (parameter, value, most) in radii {
+            if !(value > 0.0 && value <= most) {
+                return Err(wrong(parameter, value.to_string(), "above 0 and at most 1, or 1000 pixels"));
+            }
+        }
+        Ok(())
+    }
+}
+
+fn wrong(parameter: &'static str, value: String, expected: &str) -> RenderError {
+    RenderError::InvalidRequest { parameter, value, expected: expected.to_owned() }
+}
+
+/// Light that met a diffuse surface.
+#[derive(Debug, Clone, Copy)]
+struct Photon {
+    position: [f32; 3],
+    /// Geometric normal on the side that was lit.
+    normal: [f32; 3],
+    /// Flux, so that its density is the irradiance about the shading normal.
+    flux: [f32; 3],
+    /// Edges from the light to here.
+    edges: u32,
+}
+
+/// Photons with a tree over their positions.
+#[derive(Debug)]
+struct Map {
+    photons: Vec<Photon>,
+    /// None without photons.
+    tree: Option<ImmutableKdTree<f32, 3>>,
+}
+
+impl Map {
+    fn new(photons: Vec<Photon>) -> Result<Self, RenderError> {
+        if photons.is_empty() {
+            return Ok(Self { photons, tree: None });
+        }
+        let positions: Vec<[f32; 3]> = photons.iter().map(|p| p.position).collect();
+        let tree = ImmutableKdTree::new_from_slice(&positions).map_err(|e| {
+            wrong("paths", photons.len().to_string(), &format!("photons that fit a tree ({e})"))
+        })?;
+        Ok(Self { photons, tree: Some(tree) })
+    }
+
+    /// Flux and number of photons per area about a point, of those with at most `edges` edges: a kernel that falls from
+    /// twice the mean at the middle to 0 at `radius` (Epanechnikov's), over photons whose surface faces the same way.
+    fn density(&self, at: &Interaction, radius: f32, edges: u32) -> (Vec3A, f32) {
+        let Some(tree) = &self.tree else { return (Vec3A::ZERO, 0.0) };
+        let squared = radius * radius;
+        let (mut flux, mut count) = ([0.0f64; 3], 0.0f64);
+        tree.query(&at.point.to_array()).within::<SquaredEuclidean<f32>>(squared).unsorted().visit(|found| {
+            let photon = &self.photons[found.item as usize];
+            let apart = (Vec3A::from_array(photon.position) - at.point).length_squared();
+            let weight = f64::from(1.0 - apart / squared);
+            if weight > 0.0
+                && photon.edges <= edges
+                && Vec3A::from_array(photon.normal).dot(at.geometric) > SAME_SIDE
+            {
+                for (sum, f) in flux.iter_mut().zip(photon.flux) {
+                    *sum += weight * f64::from(f);
+                }
+                count += weight;
+            }
+        });
+        let scale = 2.0 / (std::f64::consts::PI * f64::from(squared)); // radius > 0: checked
+        (Vec3A::from_array(flux.map(|f| (f * scale) as f32)), (count * scale) as f32)
+    }
+}
+
+/// Least cosine between the normals of a photon and of where it is looked for.
+const SAME_SIDE: f32 = 0.7;
+
+/// Most that interpolated normals may change a photon's flux at one vertex: the ratio of cosines has no bound at grazing
+/// angles.
+const MOST_CORRECTION: f32 = 8.0;
+
+/// The photon maps of a scene. Another random seed gives other maps, whose estimates are independent.
+#[derive(Debug)]
+pub struct PhotonMaps {
+    scene: String,
+    settings: PhotonSettings,
+    seed: u64,
+    caustic: Map,
+    global: Map,
+    /// Of the scene, in its units.
+    radius: f32,
+    seconds: f64,
+}
+
+/// Keeps the random numbers of light paths apart from those of camera paths with the same random seed.
+const LIGHT_PATHS: u64 = 0x70_68_6F_74_6F_6E;
+
+/// Light paths of one piece of work.
+const PIECE: u32 = 4096;
+
+impl PhotonMaps {
+    /// Follows light through a scene, on the threads of the current rayon pool. The maps are the same for any number of
+    /// them.
+    ///
+    /// # Errors
+    /// [`RenderError::InvalidRequest`] for settings out of range, and for a scene with a medium or with moving bodies, whose
+    /// photons this mapper does not follow.
+    pub fn new(scene: &Prepared, settings: &PhotonSettings, seed: u64) -> Result<Self, RenderError> {
+        settings.check()?;
+        let models = scene.models();
+        if models.medium || !scene.bodies.is_empty() {
+            let what = if models.medium { "a medium" } else { "moving bodies" };
+            let value = format!("a scene with {what}");
+            return Err(wrong("photon maps of", value, "a scene without a medium and without moving bodies"));
+        }
+        let start = std::time::Instant::now();
+        let key = pixel_key(mix(seed ^ LIGHT_PATHS), LIGHT_PATHS);
+        let paths = settings.paths.max(settings.caustic_paths);
+        let pieces: Vec<[Vec<Photon>; 2]> = (0..paths.div_ceil(PIECE))
+            .into_par_iter()
+            .map_init(
+                || scene.traversal(),
+                |traversal, piece| {
+                    let mut found = [Vec::new(), Vec::new()];
+                    for path in piece * PIECE..((piece + 1) * PIECE).min(paths) {
+                        let wanted = [path < settings.caustic_paths, path < settings.paths];
+                        follow(scene, Independent::new(key, path), wanted, traversal, &mut found);
+                    }
+                    found
+                },
+            )
+            .collect();
+        let counts = [settings.caustic_paths, settings.paths];
+        let [caustic, global] = [0, 1].map(|map| {
+            let share = 1.0 / counts[map] as f32;
+            let photons = pieces.iter().flat_map(|piece| &piece[map]);
+            Map::new(photons.map(|p| Photon { flux: p.flux.map(|f| f * share), ..*p }).collect())
+        });
+        Ok(Self {
+            scene: scene.id().to_owned(),
+            settings: *settings,
+            seed,
+            caustic: caustic?,
+            global: global?,
+            radius: scene.radius,
+            seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    /// What they were made with.
+    #[must_use]
+    pub fn settings(&self) -> &PhotonSettings {
+        &self.settings
+    }
+
+    /// The random seed they were made with.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Photons in the caustic and in the global map.
+    #[must_use]
+    pub fn len(&self) -> [usize; 2] {
+        [self.caustic.photons.len(), self.global.photons.len()]
+    }
+
+    /// Whether no light met a diffuse surface.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == [0, 0]
+    }
+
+    /// Seconds that it took to make them.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// Id of the scene.
+    pub(crate) fn scene(&self) -> &str {
+        &self.scene
+    }
+
+    /// Irradiance by caustics at a point where a pixel is `footprint` wide, from light with at most `edges` edges, and the
+    /// density of caustic photons there per photon path.
+    pub(crate) fn caustic(&self, at: &Interaction, footprint: f32, edges: u32) -> (Vec3A, f32) {
+        let most = self.settings.caustic_radius * self.radius;
+        // Positive: a hit has a positive distance, and so a footprint, unless it underflows.
+        let radius = (self.settings.caustic_pixels * footprint).clamp(1e-6 * most, most);
+        let (flux, count) = self.caustic.density(at, radius, edges);
+        (flux, count / self.settings.caustic_paths as f32)
+    }
+
+    /// Irradiance by all light with at most `edges` edges.
+    pub(crate) fn global(&self, at: &Interaction, edges: u32) -> Vec3A {
+        self.global.density(at, self.settings.radius * self.radius, edges).0
+    }
+}
+
+/// Follows one light path; puts its photons into the caustic and the global list, as far as they are wanted.
+fn follow(
+    scene: &Prepared,
+    sampler: Independent,
+    wanted: [bool; 2],
+    traversal: &mut Traversal,
+    found: &mut [Vec<Photon>; 2],
+) {
+    let emitted = scene.lights.emit(sampler.group(0), sampler.group(1), scene.center, scene.radius);
+    let Some((origin, direction, mut flux)) = emitted else { return };
+    let mut ray = Ray { origin, direction };
+    let mut caustic = true;
+    for edge in 1..DEEPEST {
+        let Some(hit) = scene.closest::<false>(&ray, f32::INFINITY, traversal) else { return };
+        let at = scene.interact::<false>(&ray, &hit, traversal);
+        let surface = &scene.surfaces[scene.geometry[hit.primitive as usize].material as usize];
+        let arriving = -ray.direction;
+        let (shading, facing) = (arriving.dot(at.normal), arriving.dot(at.geometric));
+        let event = surface.scatter.at(at.uv);
+        let diffuse = matches!(event, Event::Lobe(crate::bsdf::Lobe::Diffuse { .. }));
+        if diffuse {
+            let bent = (shading / facing.max(1e-6)).min(MOST_CORRECTION);
+            let photon = Photon {
+                position: at.point.to_array(),
+                normal: at.geometric.to_array(),
+                flux: (flux * bent).to_array(),
+                edges: edge,
+            };
+            if wanted[0] && caustic && edge > 1 {
+                found[0].push(photon);
+            }
+            if wanted[1] {
+                found[1].push(photon);
+            }
+            caustic = false;
+        }
+        if !(wanted[1] || caustic) {
+            return;
+        }
+        let u = sampler.group(edge + 1);
+        let (direction, weight) = match event {
+            // Flux, unlike radiance, is not squeezed by refraction.
+            Event::Specular(specular) => (specular.follow(&at, arriving, u[2]).0, specular.tint()),
+            Event::Lobe(lobe) => match lobe.sample(&at, arriving, u[0], u[1]) {
+                Some(scattered) => (scattered.direction, scattered.weight),
+                None => return,
+            },
+        };
+        // Light and importance bend differently at interpolated normals (Veach 1997, Sec. 5.3); 1 where they are flat.
+        let leaving = direction.dot(at.normal).abs().max(1e-6);
+        let bent = shading * direction.dot(at.geometric).abs() / (facing.max(1e-6) * leaving);
+        let weight = weight * bent.min(MOST_CORRECTION);
+        // Roulette by the loss at this surface keeps the photons' flux alike.
+        let chance = weight.max_element().min(1.0);
+        if !(chance > 0.0) || u[3] >= chance {
+            return;
+        }
+        flux *= weight * (1.0 / chance);
+        ray = Ray { origin: at.leave(direction), direction };
+    }
+}
