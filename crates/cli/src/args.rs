@@ -55,10 +55,12 @@ impl Default for Verb {
 #[command(
     after_help = "Examples:\n  noisefloor run quick\n  noisefloor run quick --size 320x240 --out /tmp/quick\n  \
     noisefloor run vfi-table1 --threads 8\n  noisefloor run my-study.toml --cache /big/cache\n  \
-    noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr"
+    noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr\n  \
+    noisefloor run rings --integrator photon-mapping    one scene\n  \
+    noisefloor run my-scene.glb                         your own scene"
 )]
 pub struct Run {
-    /// Name of a built-in study, a study file, or a folder of EXR frames with a reference [default: quick]
+    /// Name of a built-in study or scene, a study file, a glTF file, or a folder of EXR frames with a reference [default: quick]
     pub study: Option<String>,
     /// Folder for records, images and the report [default: noisefloor-results/STUDY]
     #[arg(long, value_name = "DIR")]
@@ -72,6 +74,12 @@ pub struct Run {
     /// Threads for rendering and denoising [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Which photon maps replicates get (scenes only): `fixed`, one pair for all and for the reference, or `fresh`, a new pair for
+    /// each and a path-traced reference
+    #[arg(long, default_value = "fixed", value_parser = ["fixed", "fresh"])]
+    pub maps: String,
+    #[command(flatten)]
+    pub shot: Shot,
     /// Samples per pixel of frames that do not say it themselves (folders only)
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
@@ -87,7 +95,9 @@ pub struct Run {
     noisefloor render toaster --spp 16 --record albedo,normal,flash --filter point -o toaster.exr\n  \
     noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference\n  \
     noisefloor render cornell --spp 64 --feature-hit through-specular -o behind-the-mirror.exr\n  \
-    noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr"
+    noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr\n  \
+    noisefloor render rings --spp 64 --integrator photon-mapping -o caustics.exr\n  \
+    noisefloor render spin --spp 64 --frame 3 --orbit 2 -o fourth.exr"
 )]
 pub struct Render {
     /// Scene id, see `noisefloor scenes`; or a glTF file, .gltf or .glb
@@ -129,12 +139,41 @@ pub struct Render {
     /// Render a reference instead: this many independently randomised low-discrepancy parts
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=1024))]
     pub parts: Option<u32>,
+    #[command(flatten)]
+    pub shot: Shot,
+    /// Random seed of the photon maps; another one gives other maps
+    #[arg(long, value_name = "S", default_value_t = 0)]
+    pub map_seed: u64,
     /// Threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
     /// No progress
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// Which moment of a scene is shown, and how its light is carried.
+#[derive(Debug, Clone, Default, clap::Args)]
+pub struct Shot {
+    /// Frame of the sequence: what moves in the scene, and the camera with --orbit, is further on by this many frames
+    #[arg(long, value_name = "K", default_value_t = 0)]
+    pub frame: u32,
+    /// Degrees per frame by which the camera goes around what it looks at
+    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
+    pub orbit: f32,
+    /// How light is carried: `path-tracing`, or `photon-mapping` with a caustic map and a global map that is gathered from
+    #[arg(long, default_value = "path-tracing", value_parser = ["path-tracing", "photon-mapping"])]
+    pub integrator: String,
+    /// Make photon maps of this many light paths [default with photon-mapping: 200000]; with path tracing they serve the
+    /// feature `caustics`
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
+    pub photons: Option<u32>,
+    /// Light paths for the caustic map [default: five times --photons]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 26), requires = "photons")]
+    pub caustic_photons: Option<u32>,
+    /// Factor on the radii of looks at the photon maps
+    #[arg(long, value_name = "F", default_value_t = 1.0)]
+    pub photon_radius: f32,
 }
 
 /// `noisefloor denoise`.

@@ -13,6 +13,7 @@ mod render;
 mod report;
 mod run;
 mod scenes;
+mod shot;
 mod table;
 
 use std::process::ExitCode;

@@ -9,32 +9,46 @@ use anyhow::bail;
 use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
+use noisefloor_harness::Maps;
 use noisefloor_io::{write_frame, write_reference};
-use noisefloor_render::{FeatureHit, Keep, Prepared, Quantity, Record, RenderRequest, available};
+use noisefloor_render::{FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available};
 use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
 use serde_json::Map;
 
 use crate::args::Render;
 use crate::context::{Context, use_threads};
 use crate::progress::bar;
+use crate::shot::{is_gltf, shot};
 
 pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     use_threads(args.threads)?;
-    let mut scene = find_scene(args)?;
+    let shot = shot(&args.shot, Maps::Fixed);
+    let mut scene = shot.of(find_scene(args)?);
     if let Some(path) = &args.environment {
         scene.sky = Some(Sky::Map(Arc::new(environment(path)?)));
     }
-    let can = available(&scene);
+    let mut can = available(&scene);
+    let settings = shot.photons();
+    if settings.is_some() {
+        can.push(Quantity::Caustics);
+    }
     let record = match &args.record {
         None => useful(context, &can),
         Some(names) => named(names, &can)?,
     };
     let prepared = Prepared::new(&scene)?;
+    let maps = settings.map(|s| PhotonMaps::new(&prepared, &s, args.map_seed)).transpose()?;
+    if let Some(maps) = maps.as_ref().filter(|_| !args.quiet) {
+        let [caustic, global] = maps.len();
+        println!("photon maps: {caustic} caustic and {global} global photons in {:.1} s", maps.seconds());
+    }
     let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
     request.seed = args.seed;
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
+    request.integrator = shot.integrator;
+    request.photons = maps.as_ref();
     request.sample_start = args.start;
     if args.feature_hit == FeatureHit::ThroughSpecular.name() {
         request.feature_hit = FeatureHit::ThroughSpecular;
@@ -94,9 +108,7 @@ fn environment(path: &Path) -> anyhow::Result<EnvironmentMap> {
 /// A built-in scene, or one from a file, whose notices go to the standard error stream.
 fn find_scene(args: &Render) -> anyhow::Result<Scene> {
     let path = Path::new(&args.scene);
-    let named =
-        path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf") || e.eq_ignore_ascii_case("glb"));
-    if !named && !path.is_file() {
+    if !is_gltf(path) && !path.is_file() {
         return Ok((noisefloor_scenes::find(&args.scene)?.build)());
     }
     let loaded = noisefloor_gltf::load(path)?;

@@ -6,11 +6,12 @@ use anyhow::{Context as _, bail};
 use indicatif::ProgressBar;
 use noisefloor_harness::record::{Outcome, Record};
 use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{HarnessError, MethodRow, Observer, Stage, Study, StudyRun, Workload};
+use noisefloor_harness::{HarnessError, Maps, MethodRow, Observer, Shot, Stage, Study, StudyRun, Workload};
 
 use crate::args::Run;
 use crate::context::{Context, default_cache, use_threads};
 use crate::progress::bar;
+use crate::shot::{is_gltf, shot, shot_command};
 use crate::table::summary_table;
 
 pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
@@ -62,7 +63,18 @@ fn explain(error: HarnessError, out: &Path) -> anyhow::Error {
 fn find_study(args: &Run) -> anyhow::Result<Study> {
     let name = args.study.as_deref().unwrap_or("quick");
     let path = Path::new(name);
-    let study = if path.is_dir() {
+    let maps = if args.maps == Maps::Fresh.name() { Maps::Fresh } else { Maps::Fixed };
+    let shot = shot(&args.shot, maps);
+    let of_scene = is_gltf(path) && path.is_file()
+        || noisefloor_scenes::find(name).is_ok() && Study::builtin(name).is_err() && !path.exists();
+    if shot != Shot::default() && !of_scene {
+        bail!(
+            "--frame, --orbit, --integrator, --photons and --maps are for a scene; `{name}` is none: a study file says them itself"
+        );
+    }
+    let study = if of_scene {
+        Study::for_scene(name, shot, scene_rows())?
+    } else if path.is_dir() {
         Study::for_folder(path, args.spp, folder_rows())
             .with_context(|| format!("reading the frames in {}", path.display()))?
     } else if path.is_file() {
@@ -85,6 +97,10 @@ fn command(args: &Run) -> String {
     text.push_str(&last(Path::new(study)));
     if let Some(size) = args.size {
         text.push_str(&format!(" --size {}x{}", size.width, size.height));
+    }
+    text.push_str(&shot_command(&args.shot));
+    if args.maps == Maps::Fresh.name() {
+        text.push_str(" --maps fresh");
     }
     if let Some(threads) = args.threads {
         text.push_str(&format!(" --threads {threads}"));
@@ -147,6 +163,13 @@ impl Observer for Watcher {
             self.bar.suspend(|| eprintln!("warning: {text}"));
         }
     }
+}
+
+/// Rows for a scene that is rendered here.
+fn scene_rows() -> Vec<MethodRow> {
+    ["mc", "virtual-flash", "geometric-corrected", "guarded(virtual-flash)", "guarded(geometric-corrected)"]
+        .map(MethodRow::new)
+        .into()
 }
 
 /// Rows for a folder of somebody else's frames: no flash image, no material ids.

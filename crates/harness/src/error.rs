@@ -46,6 +46,14 @@ pub enum HarnessError {
         /// Which name, and the nearest ones.
         source: UnknownScene,
     },
+    /// A glTF file of a study cannot be loaded.
+    #[error("{}: {source}", path.display())]
+    Gltf {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: noisefloor_gltf::GltfError,
+    },
     /// A row names a method or parameter that does not exist.
     #[error("{place}: row `{label}`: {source}")]
     Method {

@@ -9,6 +9,7 @@ use noisefloor_stats::{
     self as stats, BoundTally, CoverageTally, Groups, Level, Observed, ShapeError, Truth,
 };
 
+use crate::Maps;
 use crate::record::{BoundCount, CoverageCount, EnclosureCheck};
 use crate::source::PixelClasses;
 use blocks::{Blocks, within_se};
@@ -36,6 +37,15 @@ pub(crate) fn void(sampling: Sampling) -> Option<&'static str> {
             "low-discrepancy samples: s²/n is not the variance of the mean, so intervals and bounds are void",
         ),
     }
+}
+
+/// Key in a frame's provenance: which photon maps it was rendered with.
+pub(crate) const PHOTON_MAPS: &str = "photon_maps";
+
+/// Which photon maps carried the light of a frame, if any did.
+pub(crate) fn photon_maps(frame: &Frame) -> Option<Maps> {
+    let name = frame.provenance.extra.get(PHOTON_MAPS)?;
+    [Maps::Fixed, Maps::Fresh].into_iter().find(|maps| maps.name() == name)
 }
 
 impl<'a> Measure<'a> {
@@ -73,9 +83,11 @@ impl<'a> Measure<'a> {
         })
     }
 
-    /// The same, if t-intervals mean anything: sample counts that differ between pixels depend on the data, and void them.
+    /// The same, if t-intervals mean anything: sample counts that differ between pixels depend on the data, and void them,
+    /// and so do photon maps that the truth does not share.
     fn intervals(&self) -> Option<Observed<'_>> {
         let sound = void(self.frame.sampling).is_none()
+            && photon_maps(self.frame) != Some(Maps::Fresh)
             && self.frame.samples.total().uniform().is_some_and(|n| n >= 2);
         self.observed().filter(|_| sound)
     }

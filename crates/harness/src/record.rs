@@ -41,6 +41,9 @@ pub struct Record {
     pub scene: String,
     /// Kind of sampling of the noisy frame.
     pub sampling: Sampling,
+    /// Which photon maps the frame was rendered with: [`crate::Maps::Fixed`] or [`crate::Maps::Fresh`]; absent without photon mapping.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub photon_maps: Option<crate::Maps>,
     /// Samples per pixel (rounded mean if they vary).
     pub spp: u32,
     /// Replicate, from 0.

@@ -18,6 +18,7 @@ use crate::study::{SceneSource, SceneSpec, Study};
 
 pub(crate) use classes::PixelClasses;
 use folder::Imported;
+pub(crate) use rendered::PHOTON_SETTING;
 use rendered::Rendered;
 
 /// A noisy frame that the plan asks for.
@@ -65,7 +66,7 @@ impl Scene {
         recorded: &BTreeMap<Quantity, Keep>,
     ) -> Result<Self, HarnessError> {
         match &spec.source {
-            SceneSource::Builtin(id) => rendered::open(study, spec, id, size, recorded),
+            SceneSource::Builtin(_) | SceneSource::Gltf(_) => rendered::open(study, spec, size, recorded),
             SceneSource::Synthetic(scene) => synthetic(study, spec, scene, size),
             SceneSource::Folder(path) => folder::open(spec, path),
         }

@@ -1,7 +1,9 @@
 mod builtin;
 mod check;
 mod folder;
+mod of_scene;
 mod parse;
+mod shot;
 
 use std::path::PathBuf;
 
@@ -11,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use builtin::{BuiltinStudy, builtin_studies};
+pub use shot::{Maps, Shot};
 
 /// Kinds of plots that a study can choose from.
 pub const FIGURES: [&str; 4] = ["convergence", "speed", "coverage", "bounds"];
@@ -123,6 +126,9 @@ pub struct SceneSpec {
     pub spp: Option<Vec<u32>>,
     /// Replicates of this scene alone.
     pub replicates: Option<Replicates>,
+    /// Which moment of it is shown, and how its light is carried; for rendered scenes.
+    #[serde(default)]
+    pub shot: Shot,
 }
 
 /// Where frames come from.
@@ -131,6 +137,8 @@ pub struct SceneSpec {
 pub enum SceneSource {
     /// The built-in scene of this id, rendered here.
     Builtin(String),
+    /// A glTF file, rendered here.
+    Gltf(PathBuf),
     /// Drawn from a known mean image and sample law.
     Synthetic(noisefloor_synthetic::SyntheticScene),
     /// A folder of frames that another program rendered, with a reference.

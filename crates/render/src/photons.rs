@@ -315,7 +315,8 @@ fn follow(
         let weight = weight * bent.min(MOST_CORRECTION);
         // Roulette by the loss at this surface keeps the photons' flux alike.
         let chance = weight.max_element().min(1.0);
-        if !(chance > 0.0) || u[3] >= chance {
+        // Also ends light of which nothing is left.
+        if u[3] >= chance {
             return;
         }
         flux *= weight * (1.0 / chance);

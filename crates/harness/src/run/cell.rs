@@ -116,6 +116,7 @@ impl Cell<'_> {
             study: study.name.clone(),
             scene: scene.id.clone(),
             sampling: self.frame.sampling,
+            photon_maps: crate::measure::photon_maps(self.frame),
             spp: spec.spp,
             replicate: spec.replicate,
             method: row.method.id.clone(),

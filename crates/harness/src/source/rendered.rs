@@ -3,11 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use noisefloor_frame::{Estimate, Flash, Frame, Image, PixelFilter, Reference, Sampling};
 use noisefloor_render::{
-    FeatureHit, Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, render,
+    FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Record,
+    RenderError, RenderRequest, render,
 };
 use serde_json::{Value, json};
 
@@ -15,7 +17,7 @@ use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
 use crate::error::HarnessError;
 use crate::observer::{Observer, Stage};
 use crate::source::{FrameSpec, PixelClasses, Scene, Source, frame_specs};
-use crate::study::{ReferenceSpec, SceneSpec, Study};
+use crate::study::{Maps, ReferenceSpec, SceneSource, SceneSpec, Shot, Study};
 
 /// A scene with everything that all its frames have in common.
 pub(super) struct Rendered {
@@ -30,42 +32,94 @@ pub(super) struct Rendered {
     reference: ReferenceSpec,
     /// Hash and seed of each part of the reference.
     parts: Vec<(Key, u64)>,
+    shot: Shot,
+    /// Random seed of the maps that all frames share.
+    map_seed: u64,
+    /// Those maps, made when they are first needed.
+    shared: OnceLock<PhotonMaps>,
+}
+
+/// Name of the setting that says how photon maps are used.
+pub(crate) const PHOTON_SETTING: &str = "photon maps";
+
+/// The scene before its moment is chosen, what it is, what its file could not give, and what tells it from others.
+fn build(
+    study: &Study,
+    spec: &SceneSpec,
+) -> Result<(noisefloor_scenes::Scene, String, Vec<String>), HarnessError> {
+    match &spec.source {
+        SceneSource::Gltf(path) => {
+            let loaded = noisefloor_gltf::load(path)
+                .map_err(|source| HarnessError::Gltf { path: path.clone(), source })?;
+            let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+            Ok((loaded.scene, format!("glTF file {name}"), loaded.notices))
+        }
+        SceneSource::Builtin(id) => {
+            let entry = noisefloor_scenes::find(id).map_err(|source| HarnessError::Scene {
+                place: crate::Place { file: format!("study `{}`", study.name), line: None },
+                source,
+            })?;
+            Ok(((entry.build)(), entry.about.to_owned(), Vec::new()))
+        }
+        SceneSource::Synthetic(_) | SceneSource::Folder(_) => unreachable!("these are not rendered"),
+    }
 }
 
 pub(super) fn open(
     study: &Study,
     spec: &SceneSpec,
-    id: &str,
     size: Option<(usize, usize)>,
     recorded: &BTreeMap<Quantity, Keep>,
 ) -> Result<Scene, HarnessError> {
-    let entry = noisefloor_scenes::find(id).map_err(|source| HarnessError::Scene {
-        place: crate::Place { file: format!("study `{}`", study.name), line: None },
-        source,
-    })?;
-    let scene = (entry.build)();
+    let shot = spec.shot;
+    let (scene, about, notices) = build(study, spec)?;
+    let name = scene.id.to_string();
+    let scene = shot.of(scene);
     let prepared = Prepared::new(&scene)?;
     let (width, height) = size.unwrap_or((study.width, study.height));
+    let mapped = |q: Quantity| q == Quantity::Caustics && shot.photons().is_some();
+    let can = |q: Quantity| prepared.available().contains(&q) || mapped(q);
     let record: BTreeMap<Quantity, Keep> =
-        recorded.iter().filter(|(q, _)| prepared.available().contains(q)).map(|(q, k)| (*q, *k)).collect();
+        recorded.iter().filter(|(q, _)| can(**q)).map(|(q, k)| (*q, *k)).collect();
+    // Frames of a sequence have random numbers of their own.
+    let identity = if shot.frame == 0 { Value::from(name.as_str()) } else { json!([name, shot.frame]) };
+    let map_seed = seed_of(&json!({"purpose": "photon maps", "scene": identity}));
 
     let reference = study.reference;
     let (depth, filter) = (study.depth, study.filter);
     // Everything that a sample's value depends on, whoever asks for it.
-    let look = |sampling: Sampling, record: &BTreeMap<Quantity, Keep>| {
+    let few = PhotonSettings { paths: 2000, caustic_paths: 2000, ..PhotonSettings::default() };
+    let sample = shot.photons().map(|_| PhotonMaps::new(&prepared, &few, 0)).transpose()?;
+    let look = |sampling: Sampling, record: &BTreeMap<Quantity, Keep>, maps: bool| {
+        let probe = RenderRequest {
+            depth,
+            filter,
+            sampling,
+            record: Record::Exactly(record.clone()),
+            integrator: if maps { shot.integrator } else { Integrator::PathTracing },
+            photons: if maps { sample.as_ref() } else { None },
+            ..RenderRequest::new(&prepared, 24, 18, 8)
+        };
         let mut look = json!({
-            "scene": content_hash(&scene), "renderer": fingerprint(&prepared, depth, filter, sampling, record)?,
+            "scene": content_hash(&scene), "renderer": fingerprint(&probe)?,
             "width": width, "height": height, "depth": depth, "filter": filter, "sampling": sampling,
         });
         // Frames without features are the same for all, and those of before had no such choice.
         if study.feature_hit != FeatureHit::First && !record.is_empty() {
             look["feature_hit"] = study.feature_hit.name().into();
         }
+        if maps && let Some(settings) = shot.photons() {
+            look["photons"] = json!({"settings": settings, "integrator": shot.integrator, "maps": shot.maps});
+            if shot.maps == Maps::Fixed {
+                look["photons"]["seed"] = map_seed.into();
+            }
+        }
         Ok::<_, HarnessError>(look)
     };
-    let noisy = look(study.sampling, &record)?;
-    let clean = look(reference.sampling, &BTreeMap::new())?;
-    let identity = Value::from(entry.id);
+    let noisy = look(study.sampling, &record, true)?;
+    // Path traced unless the frames share their maps with it: then it is the same with and without maps.
+    let shared = shot.integrator == Integrator::PhotonMapping && shot.maps == Maps::Fixed;
+    let clean = look(reference.sampling, &BTreeMap::new(), shared)?;
     let frames = frame_specs(study, spec, &identity, |spp, seed| {
         key_of(&json!({
             "look": noisy, "spp": spp, "seed": seed,
@@ -83,7 +137,7 @@ pub(super) fn open(
             (key, seed)
         })
         .collect();
-    let settings = [
+    let mut settings = vec![
         ("seed", study.seed.to_string()),
         ("path depth", study.depth.to_string()),
         ("film filter", study.filter.name().to_owned()),
@@ -91,14 +145,30 @@ pub(super) fn open(
         ("sampling", study.sampling.name().to_owned()),
         ("recorded", record.keys().map(|q| q.name()).collect::<Vec<_>>().join(", ")),
     ];
+    if shot.frame > 0 || shot.orbit_degrees != 0.0 {
+        settings.push(("frame of the sequence", shot.frame.to_string()));
+    }
+    if let Some(photons) = shot.photons() {
+        settings.push(("light", shot.integrator.name().to_owned()));
+        let paths = format!("{} and {} light paths", photons.paths, photons.caustic_paths);
+        let whose = match shot.maps {
+            Maps::Fixed => "fixed: one pair for all frames and the reference",
+            Maps::Fresh => "fresh: a new pair in each replicate, the reference is path traced",
+        };
+        settings.push((PHOTON_SETTING, format!("{whose}; {paths}")));
+    }
+    if !notices.is_empty() {
+        settings.push(("left out of the file", notices.join("; ")));
+    }
+    let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
     Ok(Scene {
         id: spec.id.clone(),
         title: scene.title.to_string(),
-        about: entry.about.to_owned(),
+        about,
         width,
         height,
         sampling: study.sampling,
-        settings: settings.map(|(name, value)| (name.to_owned(), value)).into(),
+        settings,
         frames,
         reference_key: key_of(&parts.iter().map(|(key, _)| key).collect::<Vec<_>>()),
         reference_spp: u64::from(reference.spp),
@@ -114,27 +184,17 @@ pub(super) fn open(
             record,
             reference,
             parts,
+            shot,
+            map_seed,
+            shared: OnceLock::new(),
         })),
     })
 }
 
-/// Hash of a tiny frame's bits: changes whenever the renderer gives other numbers, so that nobody has to remember to
+/// Hash of the bits of a tiny frame: changes whenever the renderer gives other numbers, so that nobody has to remember to
 /// raise a version.
-fn fingerprint(
-    prepared: &Prepared,
-    depth: u32,
-    filter: PixelFilter,
-    sampling: Sampling,
-    record: &BTreeMap<Quantity, Keep>,
-) -> Result<String, HarnessError> {
-    let request = RenderRequest {
-        depth,
-        filter,
-        sampling,
-        record: Record::Exactly(record.clone()),
-        ..RenderRequest::new(prepared, 24, 18, 8)
-    };
-    let frame = render(&request, &noisefloor_render::Silent)?;
+fn fingerprint(probe: &RenderRequest<'_>) -> Result<String, HarnessError> {
+    let frame = render(probe, &noisefloor_render::Silent)?;
     let mut hasher = blake3::Hasher::new();
     let mut add = |image: &Image| {
         image.data().iter().for_each(|v| {
@@ -190,7 +250,35 @@ impl Rendered {
         observer: &dyn Observer,
     ) -> Result<Frame, HarnessError> {
         let request = self.request(spec.spp, spec.seed, self.sampling, Record::Exactly(self.record.clone()));
-        cached(cache, &spec.key, observer, || rendered(&request, observer))
+        cached(cache, &spec.key, observer, || {
+            let Some(settings) = self.shot.photons() else { return rendered(&request, observer) };
+            let fresh;
+            let maps = match self.shot.maps {
+                Maps::Fixed => self.shared_maps()?,
+                Maps::Fresh => {
+                    let seed = seed_of(&json!({"purpose": "photon maps", "frame": spec.seed}));
+                    fresh = PhotonMaps::new(&self.prepared, &settings, seed)?;
+                    &fresh
+                }
+            };
+            let request =
+                RenderRequest { photons: Some(maps), integrator: self.shot.integrator, ..request.clone() };
+            let mut frame = rendered(&request, observer)?;
+            if self.shot.integrator == Integrator::PhotonMapping {
+                let maps = self.shot.maps.name().to_owned();
+                frame.provenance.extra.insert(crate::measure::PHOTON_MAPS.into(), maps);
+            }
+            Ok(frame)
+        })
+    }
+
+    /// The maps that all frames share.
+    fn shared_maps(&self) -> Result<&PhotonMaps, HarnessError> {
+        if let Some(maps) = self.shared.get() {
+            return Ok(maps);
+        }
+        let maps = PhotonMaps::new(&self.prepared, &self.shot.photons().unwrap_or_default(), self.map_seed)?;
+        Ok(self.shared.get_or_init(|| maps))
     }
 
     /// Part by part, each kept, so that a killed run loses at most one part.
@@ -208,8 +296,12 @@ impl Rendered {
                 part: part as u32,
                 parts: self.reference.parts,
             });
-            let request = self.request(per_part, *seed, self.reference.sampling, Record::color_only());
+            let mut request = self.request(per_part, *seed, self.reference.sampling, Record::color_only());
             let frame = cached(cache, key, observer, || {
+                if self.shot.integrator == Integrator::PhotonMapping && self.shot.maps == Maps::Fixed {
+                    request.integrator = Integrator::PhotonMapping;
+                    request.photons = Some(self.shared_maps()?);
+                }
                 let mut frame = rendered(&request, observer)?;
                 frame.color = Estimate::from_mean(frame.color.mean);
                 Ok(frame)

@@ -159,6 +159,19 @@ fn check_scenes(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
         {
             return wrong(index, "folder", quoted(&path.display().to_string()), "a folder that exists");
         }
+        if let SceneSource::Gltf(path) = &scene.source
+            && !path.is_file()
+        {
+            return wrong(index, "file", quoted(&path.display().to_string()), "a glTF file that exists");
+        }
+        if !(-360.0..=360.0).contains(&scene.shot.orbit_degrees) {
+            return wrong(
+                index,
+                "orbit_degrees",
+                scene.shot.orbit_degrees.to_string(),
+                "within ±360 per frame",
+            );
+        }
     }
     if study.scenes.is_empty() {
         return wrong(0, "id", "absent".into(), "at least one `[[scene]]`");

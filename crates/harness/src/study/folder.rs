@@ -7,7 +7,9 @@ use noisefloor_render::FeatureHit;
 
 use crate::error::HarnessError;
 use crate::study::check::{Lines, check};
-use crate::study::{Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Study, Timing};
+use crate::study::{
+    Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot, Study, Timing,
+};
 
 impl Study {
     /// A study of somebody else's frames: the folder itself, or each of its sub-folders, with a reference in it. `spp` is
@@ -41,6 +43,7 @@ impl Study {
                 source: SceneSource::Folder(folder.path.clone()),
                 spp: silent.then(|| own.into_iter().collect()),
                 replicates: None,
+                shot: Shot::default(),
             });
         }
         let metrics = crate::metric::ids();

@@ -3,14 +3,16 @@
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{PixelFilter, Sampling};
-use noisefloor_render::FeatureHit;
+use noisefloor_render::{FeatureHit, Integrator, PhotonSettings};
 use serde::Deserialize;
 use serde_json::{Map, Value};
 use toml::Spanned;
 
 use crate::error::{HarnessError, Place};
 use crate::study::check::{Lines, check};
-use crate::study::{Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Study, Timing};
+use crate::study::{
+    Family, Maps, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot, Study, Timing,
+};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -115,6 +117,18 @@ struct RawScene {
     folder: Option<PathBuf>,
     spp: Option<Vec<u32>>,
     replicates: Option<RawReplicates>,
+    /// Name of the built-in scene, if the id is another.
+    scene: Option<String>,
+    /// A glTF file.
+    file: Option<PathBuf>,
+    #[serde(default)]
+    frame: u32,
+    #[serde(default)]
+    orbit_degrees: f32,
+    #[serde(default)]
+    integrator: Integrator,
+    photons: Option<PhotonSettings>,
+    maps: Option<Maps>,
 }
 
 #[derive(Deserialize)]
@@ -211,22 +225,42 @@ impl RawScene {
         lines: &Lines<'_>,
     ) -> Result<SceneSpec, HarnessError> {
         let place = || Place { line: Some(line), ..lines.place(None) };
-        let source = match (self.synthetic, self.folder) {
-            (Some(spec), None) => SceneSource::Synthetic(spec),
-            (None, Some(folder)) => SceneSource::Folder(base.join(folder)),
-            (None, None) => match noisefloor_scenes::find(&self.id) {
+        let wrong = |value: &str, allowed: &str| HarnessError::Field {
+            place: place(),
+            field: format!("scene[{index}]"),
+            value: value.into(),
+            allowed: allowed.into(),
+        };
+        let rendered = self.synthetic.is_none() && self.folder.is_none();
+        let source = match (self.synthetic, self.folder, self.file, self.scene) {
+            (Some(spec), None, None, None) => SceneSource::Synthetic(spec),
+            (None, Some(folder), None, None) => SceneSource::Folder(base.join(folder)),
+            (None, None, Some(file), None) => SceneSource::Gltf(base.join(file)),
+            (None, None, None, name) => match noisefloor_scenes::find(name.as_ref().unwrap_or(&self.id)) {
                 Ok(entry) => SceneSource::Builtin(entry.id.into()),
                 Err(source) => return Err(HarnessError::Scene { place: place(), source }),
             },
-            (Some(_), Some(_)) => {
-                return Err(HarnessError::Field {
-                    place: place(),
-                    field: format!("scene[{index}]"),
-                    value: "both synthetic and a folder".into(),
-                    allowed: "one of `synthetic` and `folder`, or neither for a built-in scene".into(),
-                });
+            _ => {
+                let allowed = "one of `synthetic`, `folder`, `file` and `scene`, or none for the built-in scene of this id";
+                return Err(wrong("of several kinds", allowed));
             }
         };
-        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates: self.replicates.map(Into::into) })
+        let shot = Shot {
+            frame: self.frame,
+            orbit_degrees: self.orbit_degrees,
+            integrator: self.integrator,
+            photons: self.photons,
+            maps: self.maps.unwrap_or_default(),
+        };
+        if !rendered && shot != Shot::default() {
+            let allowed = "no `frame`, `orbit_degrees`, `integrator`, `photons` or `maps`: they are for scenes that are rendered";
+            return Err(wrong("not rendered", allowed));
+        }
+        if self.maps.is_some() && shot.photons().is_none() {
+            let allowed = "`integrator = \"photon-mapping\"` or `photons`, for there to be maps";
+            return Err(wrong("`maps` without photon maps", allowed));
+        }
+        let replicates = self.replicates.map(Into::into);
+        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot })
     }
 }
