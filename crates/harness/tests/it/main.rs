@@ -5,4 +5,5 @@ mod common;
 mod import;
 mod outcomes;
 mod resume;
+mod shots;
 mod statistics;
