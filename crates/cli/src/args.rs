@@ -97,7 +97,7 @@ pub struct Run {
     noisefloor render cornell --spp 64 --feature-hit through-specular -o behind-the-mirror.exr\n  \
     noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr\n  \
     noisefloor render rings --spp 64 --integrator photon-mapping -o caustics.exr\n  \
-    noisefloor render spin --spp 64 --frame 3 --orbit 2 -o fourth.exr"
+    noisefloor render cornell --spp 64 --orbit 2 --frames 5 -o turn.exr     turn.0000.exr to turn.0004.exr"
 )]
 pub struct Render {
     /// Scene id, see `noisefloor scenes`; or a glTF file, .gltf or .glb
@@ -141,6 +141,10 @@ pub struct Render {
     pub parts: Option<u32>,
     #[command(flatten)]
     pub shot: Shot,
+    /// Frames of the sequence to render, from --frame on, each with random numbers of its own; more than one makes
+    /// files like STEM.0007.exr
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    pub frames: u32,
     /// Random seed of the photon maps; another one gives other maps
     #[arg(long, value_name = "S", default_value_t = 0)]
     pub map_seed: u64,

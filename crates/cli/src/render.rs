@@ -2,16 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use anyhow::bail;
 use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
-use noisefloor_harness::Maps;
+use noisefloor_harness::{Maps, Shot};
 use noisefloor_io::{write_frame, write_reference};
-use noisefloor_render::{FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available};
+use noisefloor_render::{
+    FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available, sequence_seed,
+};
 use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
 use serde_json::Map;
 
@@ -22,8 +24,24 @@ use crate::shot::{is_gltf, shot};
 
 pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     use_threads(args.threads)?;
-    let shot = shot(&args.shot, Maps::Fixed);
-    let mut scene = shot.of(find_scene(args)?);
+    let base = find_scene(args)?;
+    let first = shot(&args.shot, Maps::Fixed);
+    for frame in first.frame..first.frame.saturating_add(args.frames) {
+        let output = if args.frames == 1 { args.output.clone() } else { numbered(&args.output, frame) };
+        one(context, args, &base, Shot { frame, ..first }, &output)?;
+    }
+    Ok(())
+}
+
+/// `STEM.0007.exr` for frame 7.
+fn numbered(path: &Path, frame: u32) -> PathBuf {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    path.with_extension(format!("{frame:04}.{extension}"))
+}
+
+/// Renders and writes one frame.
+fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path) -> anyhow::Result<()> {
+    let mut scene = shot.of(base.clone());
     if let Some(path) = &args.environment {
         scene.sky = Some(Sky::Map(Arc::new(environment(path)?)));
     }
@@ -43,7 +61,7 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
         println!("photon maps: {caustic} caustic and {global} global photons in {:.1} s", maps.seconds());
     }
     let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
-    request.seed = args.seed;
+    request.seed = sequence_seed(args.seed, shot.frame);
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
@@ -64,22 +82,26 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
         progress.inc(finished as u64);
         ControlFlow::Continue(())
     };
-    let lit_by = args.environment.as_ref().map(|path| {
+    let mut extra = BTreeMap::new();
+    if let Some(path) = &args.environment {
         let name = path.file_name().unwrap_or(path.as_os_str());
-        ("environment".to_owned(), name.to_string_lossy().into_owned())
-    });
+        extra.insert("environment".to_owned(), name.to_string_lossy().into_owned());
+    }
+    if shot.frame > 0 {
+        extra.insert("sequence_frame".to_owned(), shot.frame.to_string());
+    }
     let seconds = match args.parts {
         Some(parts) => {
             request.sampling = Sampling::LowDiscrepancy;
             let mut reference = noisefloor_render::render_reference(&request, parts, &advance)?;
-            reference.frame.provenance.extra.extend(lit_by);
-            write_reference(&args.output, &reference)?;
+            reference.frame.provenance.extra.extend(extra);
+            write_reference(output, &reference)?;
             reference.frame.provenance.render_seconds
         }
         None => {
             let mut frame = noisefloor_render::render(&request, &advance)?;
-            frame.provenance.extra.extend(lit_by);
-            write_frame(&args.output, &frame)?;
+            frame.provenance.extra.extend(extra);
+            write_frame(output, &frame)?;
             frame.provenance.render_seconds
         }
     };
@@ -88,7 +110,7 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
         let rate = seconds.filter(|s| *s > 0.0).map_or(String::new(), |s| {
             format!(" in {s:.1} s, {:.2} million samples/s", (pixels * u64::from(args.spp)) as f64 / s / 1e6)
         });
-        println!("wrote {}{rate}", args.output.display());
+        println!("wrote {}{rate}", output.display());
     }
     Ok(())
 }

@@ -89,6 +89,41 @@ fn what_is_rendered_can_be_chosen() {
 }
 
 #[test]
+fn photon_maps_and_sequences_can_be_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let read = |name: &str| {
+        noisefloor::io::read_frame(at.join(name), &noisefloor::io::ReadOptions::default()).unwrap()
+    };
+    let start = ["render", "cornell", "--spp", "4", "--size", "24x18"];
+    let with = |extra: &[&str]| done(at, &[&start[..], extra].concat());
+    let told =
+        with(&["--integrator", "photon-mapping", "--photons", "2000", "--map-seed", "9", "-o", "p.exr"]);
+    assert!(told.contains("caustic and"), "{told}");
+    let mapped = read("p.exr");
+    assert!(mapped.provenance.integrator.as_ref().unwrap().starts_with("photon-mapping"));
+    assert_eq!(mapped.provenance.extra["photon_map_seed"], "9");
+    assert!(mapped.provenance.extra["photon_paths"].starts_with("2000 global, 10000 caustic"));
+    with(&["--photons", "2000", "--record", "caustics,brdf", "-o", "c.exr"]);
+    let caustics = read("c.exr");
+    assert_eq!(caustics.features.keys().map(|k| k.name()).collect::<Vec<_>>(), ["caustics", "brdf"]);
+    assert!(caustics.features.values().all(|f| f.variance.is_some() && f.halves.is_some()));
+    // Without maps there is no such feature.
+    let error = refused(at, &[&start[..], &["--record", "caustics", "-o", "x.exr"]].concat());
+    assert!(error.contains("caustics"), "{error}");
+
+    with(&["--frames", "2", "--orbit", "10", "--record", "depth,motion", "-o", "s.exr"]);
+    let (first, second) = (read("s.0000.exr"), read("s.0001.exr"));
+    assert_ne!(first.color.mean, second.color.mean);
+    assert_eq!(second.provenance.extra["sequence_frame"], "1");
+    assert_ne!(first.provenance.seed, second.provenance.seed);
+    let motion = first.features.iter().find(|(id, _)| id.name() == "motion").unwrap().1;
+    assert!(motion.mean.data().iter().any(|v| v.abs() > 0.5), "the camera turns by 10°");
+    with(&["--frame", "1", "--orbit", "10", "--record", "depth,motion", "-o", "one.exr"]);
+    assert_eq!(read("one.exr").color, second.color);
+}
+
+#[test]
 fn a_gltf_file_is_a_scene_and_what_it_lacks_is_told() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();

@@ -215,8 +215,8 @@ impl Plan {
     ) -> Result<(), FrameError> {
         let mut planes = planes.into_iter();
         let mut image = |channels: usize| {
-            let data: Vec<f32> = planes.by_ref().take(channels).flatten().collect();
-            Image::from_vec(width, height, channels, data)
+            let parts: Vec<Vec<f32>> = planes.by_ref().take(channels).collect();
+            Image::from_vec(width, height, channels, parts.concat())
         };
         let mut estimate = |channels: usize, keep: Keep| -> Result<Estimate, FrameError> {
             Ok(Estimate {

@@ -11,6 +11,16 @@ pub const DEEPEST: u32 = 1024;
 /// Longest low-discrepancy sequence of one randomisation.
 pub const LONGEST_SEQUENCE: u32 = 1 << 16;
 
+/// Random seed of frame `frame` of a sequence that starts with `seed`: frame 0 has the seed itself, every other one
+/// numbers that have nothing to do with it.
+#[must_use]
+pub fn sequence_seed(seed: u64, frame: u32) -> u64 {
+    if frame == 0 { seed } else { crate::sampler::pixel_key(seed ^ SEQUENCE, u64::from(frame)) }
+}
+
+/// Keeps the seeds of a sequence apart from everything else that is derived from a seed.
+const SEQUENCE: u64 = 0x7365_7175_656E_6365;
+
 /// One image to render.
 #[derive(Debug, Clone)]
 pub struct RenderRequest<'a> {
