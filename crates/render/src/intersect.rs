@@ -31,6 +31,15 @@ pub struct Traversal {
     stack: Stack,
     /// Of the bodies at the time of the sample: from when the shutter opens to then.
     poses: Vec<Affine3A>,
+    /// Rays followed since this was last asked for.
+    rays: u64,
+}
+
+impl Traversal {
+    /// Rays followed since the last call; a shadow ray counts as one.
+    pub fn take_rays(&mut self) -> u64 {
+        std::mem::take(&mut self.rays)
+    }
 }
 
 impl Prepared {
@@ -38,7 +47,7 @@ impl Prepared {
     pub fn traversal(&self) -> Traversal {
         let stacks = self.bodies.iter().map(|b| b.bvh.stack()).chain([self.bvh.stack()]);
         let stack = stacks.max_by_key(Stack::size).unwrap_or_else(|| self.bvh.stack());
-        Traversal { stack, poses: self.bodies.iter().map(|b| b.body.at(0.0)).collect() }
+        Traversal { stack, poses: self.bodies.iter().map(|b| b.body.at(0.0)).collect(), rays: 0 }
     }
 
     /// Puts the bodies where they are after a share `u` of the time that the shutter is open.
@@ -56,6 +65,7 @@ impl Prepared {
         limit: f32,
         traversal: &mut Traversal,
     ) -> Option<Hit> {
+        traversal.rays += 1;
         let mut best = self.bvh.closest(ray, limit, &mut traversal.stack);
         if EXTRAS {
             for (moving, pose) in self.bodies.iter().zip(&traversal.poses) {
@@ -73,6 +83,7 @@ impl Prepared {
     /// Whether anything lies at a positive distance below `limit`.
     #[inline(always)]
     pub fn occluded<const EXTRAS: bool>(&self, ray: &Ray, limit: f32, traversal: &mut Traversal) -> bool {
+        traversal.rays += 1;
         if self.bvh.occluded(ray, limit, &mut traversal.stack) {
             return true;
         }

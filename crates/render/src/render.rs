@@ -31,8 +31,8 @@ pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Fr
     let limit = if request.spp >= 2 { Keep::ALL } else { Keep::MEAN };
     let plan = Plan::new(request, limit)?;
     let start = Instant::now();
-    let dropped = AtomicU64::new(0);
-    let shot = Shot::new(request, &plan, &dropped);
+    let counts = Totals::default();
+    let shot = Shot::new(request, &plan, &counts);
     let planes = shot.dispatch(plan.planes(), progress)?;
     let even = |end: u32| end.div_ceil(2);
     let end = request.sample_start + request.spp; // checked above
@@ -40,7 +40,7 @@ pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Fr
         Samples::uniform(request.spp).with_half_a(Counts::Uniform(even(end) - even(request.sample_start)));
     let mut frame = blank(request, samples, request.sampling);
     plan.fill(&mut frame, planes, request.width, request.height)?;
-    frame.provenance = provenance(request, start.elapsed().as_secs_f64(), dropped.into_inner());
+    frame.provenance = provenance(request, start.elapsed().as_secs_f64(), &counts);
     frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
     Ok(frame)
 }
@@ -74,8 +74,8 @@ pub fn render_reference(
     }
     let plan = Plan::new(request, Keep::MEAN)?;
     let start = Instant::now();
-    let dropped = AtomicU64::new(0);
-    let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &dropped) };
+    let counts = Totals::default();
+    let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &counts) };
     let mut planes = shot.dispatch(3 * parts as usize + plan.planes(), progress)?;
     let rest = planes.split_off(3 * parts as usize);
     let images = planes
@@ -87,7 +87,7 @@ pub fn render_reference(
     plan.fill(&mut recorded, rest, request.width, request.height)?;
     reference.frame.features = recorded.features;
     reference.frame.flash = recorded.flash;
-    reference.frame.provenance = provenance(request, start.elapsed().as_secs_f64(), dropped.into_inner());
+    reference.frame.provenance = provenance(request, start.elapsed().as_secs_f64(), &counts);
     reference.frame.provenance.sampler = Some(crate::sampler::name(Sampling::LowDiscrepancy).into());
     reference.frame.provenance.extra.insert("parts".into(), parts.to_string());
     Ok(reference)
@@ -101,9 +101,11 @@ pub(crate) fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sam
     Frame::from_color(Estimate::from_mean(Image::new(request.width, request.height, 3)), samples, sampling)
 }
 
-pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, non_finite: u64) -> Provenance {
+pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, counts: &Totals) -> Provenance {
     let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
     let mut extra = std::collections::BTreeMap::new();
+    let [non_finite, rays] = counts.read();
+    extra.insert("rays".into(), rays.to_string());
     if non_finite > 0 {
         extra.insert("non_finite_samples".into(), non_finite.to_string());
     }
@@ -152,7 +154,30 @@ pub(crate) struct Shot<'a> {
     next: Option<Eye>,
     parts: Option<u32>,
     sobol: SobolTables,
-    non_finite: &'a AtomicU64,
+    counts: &'a Totals,
+}
+
+/// What is counted over a rendering, on all threads.
+#[derive(Debug, Default)]
+pub(crate) struct Totals {
+    /// Samples that were not finite and count as black.
+    non_finite: AtomicU64,
+    /// Rays that were followed.
+    rays: AtomicU64,
+}
+
+impl Totals {
+    /// Samples that were not finite, and rays.
+    pub(crate) fn read(&self) -> [u64; 2] {
+        [&self.non_finite, &self.rays].map(|count| count.load(Ordering::Relaxed))
+    }
+
+    /// Adds what another rendering counted.
+    pub(crate) fn add(&self, other: &Self) {
+        let [non_finite, rays] = other.read();
+        self.non_finite.fetch_add(non_finite, Ordering::Relaxed);
+        self.rays.fetch_add(rays, Ordering::Relaxed);
+    }
 }
 
 /// What a thread keeps from pixel to pixel.
@@ -162,12 +187,12 @@ struct Scratch<const C: usize> {
 }
 
 impl<'a> Shot<'a> {
-    pub(crate) fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, non_finite: &'a AtomicU64) -> Self {
+    pub(crate) fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, counts: &'a Totals) -> Self {
         let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
         let next = request.scene.camera_move.map(|step| {
             Eye::new(&step.apply(&request.scene.camera, 1.0), request.width, request.height, request.filter)
         });
-        Self { request, plan, eye, next, parts: None, sobol: SobolTables::new(), non_finite }
+        Self { request, plan, eye, next, parts: None, sobol: SobolTables::new(), counts }
     }
 
     /// Picks the code for what is recorded, so that what is not recorded costs nothing.
@@ -277,13 +302,14 @@ impl<'a> Shot<'a> {
             let outcome = trace::<S, FEATURES, FLASH, EXTRAS>(scene, ray, &view, sampler, traversal);
             let (values, finite) = tally_values::<FEATURES, FLASH, EXTRAS, C>(&outcome);
             if !finite {
-                self.non_finite.fetch_add(1, Ordering::Relaxed);
+                self.counts.non_finite.fetch_add(1, Ordering::Relaxed);
             }
             tally.push(k, &values);
             if k == first {
                 material = outcome.material;
             }
         }
+        self.counts.rays.fetch_add(traversal.take_rays(), Ordering::Relaxed);
         material
     }
 

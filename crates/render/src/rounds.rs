@@ -1,6 +1,5 @@
 //! Rendering in rounds: more samples for chosen pixels, merged exactly into what is there.
 
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use noisefloor_frame::{Counts, Frame, Image, Samples, Sampling};
@@ -9,7 +8,7 @@ use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use crate::film::Planes;
 use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH};
-use crate::render::{Shot, blank, provenance};
+use crate::render::{Shot, Totals, blank, provenance};
 use crate::request::LONGEST_SEQUENCE;
 use crate::tally::Tally;
 use crate::{Keep, Progress, RenderError, RenderRequest};
@@ -33,7 +32,7 @@ pub struct Rounds<'a> {
     pixels: Pixels,
     rounds: u32,
     seconds: f64,
-    non_finite: u64,
+    counts: Totals,
 }
 
 /// One pixel: its statistics, the material of its first sample, and the index after its last.
@@ -77,8 +76,14 @@ impl<'a> Rounds<'a> {
             (false, true) => Pixels::Flash(empty(count, first)),
             (true, true) => Pixels::Both(empty(count, first)),
         };
-        let mut rounds =
-            Self { request: request.clone(), plan, pixels, rounds: 0, seconds: 0.0, non_finite: 0 };
+        let mut rounds = Self {
+            request: request.clone(),
+            plan,
+            pixels,
+            rounds: 0,
+            seconds: 0.0,
+            counts: Totals::default(),
+        };
         rounds.add(&vec![request.spp; count], progress)?;
         Ok(rounds)
     }
@@ -105,8 +110,8 @@ impl<'a> Rounds<'a> {
             }
         }
         let start = Instant::now();
-        let non_finite = AtomicU64::new(0);
-        let shot = Shot::new(&self.request, &self.plan, &non_finite);
+        let counts = Totals::default();
+        let shot = Shot::new(&self.request, &self.plan, &counts);
         let done = match &mut self.pixels {
             Pixels::Color(pixels) => {
                 grow::<false, false, false, _>(pixels, &shot, &self.request, extra, progress)
@@ -127,7 +132,7 @@ impl<'a> Rounds<'a> {
         };
         self.rounds += 1;
         self.seconds += start.elapsed().as_secs_f64();
-        self.non_finite += non_finite.load(Ordering::Relaxed);
+        self.counts.add(&counts);
         done
     }
 
@@ -169,7 +174,7 @@ impl<'a> Rounds<'a> {
         }
         self.rounds += next.rounds;
         self.seconds += next.seconds;
-        self.non_finite += next.non_finite;
+        self.counts.add(&next.counts);
         Ok(())
     }
 
@@ -204,7 +209,7 @@ impl<'a> Rounds<'a> {
         };
         let mut frame = blank(request, samples, request.sampling);
         self.plan.fill(&mut frame, planes, request.width, request.height)?;
-        frame.provenance = provenance(request, self.seconds, self.non_finite);
+        frame.provenance = provenance(request, self.seconds, &self.counts);
         frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
         frame.provenance.extra.insert("rounds".into(), self.rounds.to_string());
         Ok(frame)

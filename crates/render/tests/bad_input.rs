@@ -9,9 +9,10 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::Sampling;
 use noisefloor_render::{
-    Prepared, RenderError, RenderRequest, Silent, pixel_classes, render, render_reference,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, RenderError, RenderRequest, Silent, pixel_classes,
+    render, render_reference,
 };
-use noisefloor_scenes::{EnvironmentMap, Lens, Scattering, Scene, Sky, Sun};
+use noisefloor_scenes::{EnvironmentMap, Lens, Medium, Scattering, Scene, Sky, Sun};
 
 /// A valid scene that a test then spoils; the message of the error.
 fn spoil(change: impl FnOnce(&mut Scene)) -> String {
@@ -117,13 +118,26 @@ fn progress_adds_up_and_can_cancel() {
 #[test]
 fn an_eye_inside_a_wall_or_on_a_surface_gives_finite_frames() {
     for eye in [Vec3::new(0.0, 0.0, 0.0), Vec3::new(-0.35, 0.5, -0.35), Vec3::new(0.0, 2.0, 0.5)] {
-        let mut scene = cornell();
-        scene.camera.eye = eye;
-        scene.camera.target = Vec3::new(0.3, 0.9, -0.9);
-        let frame =
-            render(&RenderRequest::new(&Prepared::new(&scene).unwrap(), 16, 12, 16), &Silent).unwrap();
-        assert_eq!(frame.color.mean.count_non_finite(), 0);
-        assert!(!frame.provenance.extra.contains_key("non_finite_samples"));
+        for way in ["paths", "photons", "medium"] {
+            let mut scene = cornell();
+            scene.camera.eye = eye;
+            scene.camera.target = Vec3::new(0.3, 0.9, -0.9);
+            if way == "medium" {
+                let (absorption, scattering) = (Vec3::splat(0.1), Vec3::splat(0.5));
+                scene.medium = Some(Medium { absorption, scattering, mean_cosine: 0.4 });
+            }
+            let prepared = Prepared::new(&scene).unwrap();
+            let few = PhotonSettings { paths: 2000, caustic_paths: 2000, ..PhotonSettings::default() };
+            let maps = (way == "photons").then(|| PhotonMaps::new(&prepared, &few, 0).unwrap());
+            let mut request = RenderRequest::new(&prepared, 16, 12, 16);
+            if maps.is_some() {
+                request.integrator = Integrator::PhotonMapping;
+                request.photons = maps.as_ref();
+            }
+            let frame = render(&request, &Silent).unwrap();
+            assert_eq!(frame.color.mean.count_non_finite(), 0, "{way} {eye}");
+            assert!(!frame.provenance.extra.contains_key("non_finite_samples"), "{way} {eye}");
+        }
     }
 }
 
