@@ -1,9 +1,13 @@
 //! One file per built-in scene, or per large part of one.
 
+mod choir;
+mod church;
+mod column;
 pub mod conference;
 pub mod cornell;
 mod garden;
 mod kitchen;
+pub mod nave;
 pub mod outdoor;
 pub mod rings;
 pub mod toaster;

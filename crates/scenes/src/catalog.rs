@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, outdoor, rings, toaster, two_quads};
+use crate::builtin::{conference, cornell, nave, outdoor, rings, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -45,6 +45,11 @@ const SCENES: &[SceneEntry] = &[
         id: conference::ID,
         about: "meeting room with many lamps and thin furniture: stands in for the conference room of rousselle2013rdfc",
         build: conference::conference,
+    },
+    SceneEntry {
+        id: nave::ID,
+        about: "church nave under a thin lens, lit through its windows: stands in for the Sibenik cathedral of rousselle2013rdfc",
+        build: nave::nave,
     },
     SceneEntry {
         id: two_quads::ID,

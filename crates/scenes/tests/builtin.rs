@@ -37,6 +37,7 @@ fn models_declare_what_the_contents_show() {
     assert_eq!(scene("cornell-diffuse").models(), Models { area_lights: true, ..none });
     let kitchen = Models { depth_of_field: true, textures: true, glossy: true, area_lights: true, ..none };
     assert_eq!(scene("toaster").models(), kitchen);
+    assert_eq!(scene("nave").models(), Models { glossy: false, ..kitchen });
     assert_eq!(scene("outdoor").models(), Models { textures: true, sun: true, sky: true, ..none });
     assert_eq!(scene("rings").models(), Models { sky: true, ..kitchen });
     let meeting = Models { textures: true, glossy: true, area_lights: true, ..none };
@@ -56,6 +57,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("toaster", 8_000..12_000),
         ("outdoor", 60_000..150_000),
         ("conference", 8_000..30_000),
+        ("nave", 20_000..120_000),
         ("rings", 50_000..150_000),
     ] {
         let count = triangles(&scene(id));
