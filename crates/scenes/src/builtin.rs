@@ -2,6 +2,7 @@
 
 pub mod conference;
 pub mod cornell;
+pub mod fog;
 mod garden;
 mod kitchen;
 pub mod outdoor;
