@@ -5,6 +5,7 @@ mod church;
 mod column;
 pub mod conference;
 pub mod cornell;
+pub mod fog;
 mod garden;
 mod kitchen;
 pub mod nave;

@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, nave, outdoor, rings, toaster, two_quads};
+use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +55,11 @@ const SCENES: &[SceneEntry] = &[
         id: two_quads::ID,
         about: "a textured quad in focus beside one far out of focus: stands in for rousselle2013rdfc Fig. 3",
         build: two_quads::two_quads,
+    },
+    SceneEntry {
+        id: fog::ID,
+        about: "winged serpent in a dark hall, lit through slits: stands in for the dragon in fog of rousselle2013rdfc",
+        build: fog::fog,
     },
     SceneEntry {
         id: "furnace",

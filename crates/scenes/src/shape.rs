@@ -7,6 +7,7 @@
 mod flat;
 mod plant;
 mod round;
+mod smooth;
 mod surface;
 mod sweep;
 #[cfg(test)]

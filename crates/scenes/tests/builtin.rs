@@ -44,6 +44,8 @@ fn models_declare_what_the_contents_show() {
     assert_eq!(scene("conference").models(), meeting);
     let quads = Models { depth_of_field: true, textures: true, sky: true, ..none };
     assert_eq!(scene("two-quads").models(), quads);
+    // Finite lamps only: a medium fills a closed scene, and light from infinitely far away could not get in.
+    assert_eq!(scene("fog").models(), Models { textures: true, area_lights: true, ..none });
     for id in ["furnace", "direct", "gradient"] {
         assert_eq!(scene(id).models(), Models { area_lights: true, ..none }, "{id}");
     }
@@ -59,6 +61,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("conference", 8_000..30_000),
         ("nave", 20_000..120_000),
         ("rings", 50_000..150_000),
+        ("fog", 60_000..200_000),
     ] {
         let count = triangles(&scene(id));
         assert!(budget.contains(&count), "{id} has {count}");

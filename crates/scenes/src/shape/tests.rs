@@ -95,6 +95,20 @@ fn moved_mesh_keeps_unit_normals_and_its_front() {
 }
 
 #[test]
+fn smoothed_ball_has_the_normals_of_a_ball() {
+    let mesh = rounded_box(Vec3::ONE, 1.0, 12).smoothed();
+    // Over a cell of a twelfth of 45° a facet leans by at most half of that.
+    let lean = (45.0f32 / 12.0).to_radians();
+    for (p, n) in mesh.positions.iter().zip(&mesh.normals) {
+        assert!(p.normalize().dot(*n) > lean.cos(), "{p} has {n}");
+    }
+    // Twelve sides at right angles: every corner of a cube looks along its diagonal or nearly so.
+    let cube = cuboid(-Vec3::ONE, Vec3::ONE).smoothed();
+    assert!(cube.positions.iter().zip(&cube.normals).all(|(p, n)| p.normalize().dot(*n) > 0.8));
+    assert!(normals_face_the_front(&cube));
+}
+
+#[test]
 fn leaf_has_six_proper_triangles() {
     let leaf = LeafShape {
         base: Vec3::ONE,
