@@ -597,4 +597,57 @@ mod tests {
             }
         }
     }
+
+    #[test]
+    fn light_that_is_sent_into_a_ball_is_what_arrives_on_its_surface() {
+        for kind in ["triangle", "sphere", "sun", "sky", "map"] {
+            let scene = scene(kind);
+            // Far enough for a cone, close by, and around the lamp.
+            for (center, radius) in
+                [([0.2, -3.0, 0.5], 0.4f32), ([0.1, 0.2, 0.0], 0.5), ([0.0, 1.0, 0.0], 3.0)]
+            {
+                // Distant light starts outside the scene, and so outside every ball in it.
+                if radius > scene.radius && !matches!(kind, "triangle" | "sphere") {
+                    continue;
+                }
+                let center = Vec3A::from_array(center);
+                let ball = crate::lights::Ball { center, radius };
+                let chances = scene.lights.towards(ball);
+                let (mut sent, mut arrived) = (Moments::<1>::default(), Moments::<1>::default());
+                for k in 0..60_000 {
+                    let sampler = Independent::new(21, k);
+                    let light = scene.lights.emit(sampler.group(0), sampler.group(1), ball, &chances);
+                    sent.push([light.map_or(0.0, |(origin, direction, flux)| {
+                        let to = center - origin;
+                        let along = to.dot(direction);
+                        let aside = (to - direction * along).length();
+                        let inside = to.length() < radius;
+                        // What starts inside never arrives from outside.
+                        if aside <= radius && along > 0.0 && !inside { f64::from(flux.x) } else { 0.0 }
+                    })]);
+                    let u = sampler.group(2);
+                    let (s, c) = crate::math::turn(u[3]);
+                    let sin = (4.0 * u[2] * (1.0 - u[2])).max(0.0).sqrt();
+                    let normal = Vec3A::new(sin * c, sin * s, 1.0 - 2.0 * u[2]);
+                    let point = center + normal * radius;
+                    let found = scene.lights.sample(point, normal, sampler.group(3));
+                    arrived.push([found.map_or(0.0, |light| {
+                        let cos = light.direction.dot(normal).max(0.0);
+                        let area = 4.0 * std::f32::consts::PI * radius * radius;
+                        f64::from(light.radiance.x * cos / light.density * area)
+                    })]);
+                }
+                let at = |m: &Moments<1>| (m.mean()[0], m.mean_variance().unwrap()[0]);
+                let ((a, va), (b, vb)) = (at(&sent), at(&arrived));
+                let error = (va + vb).sqrt();
+                // A lamp inside the ball sends nothing in.
+                if matches!(kind, "triangle" | "sphere") && radius == 3.0 {
+                    assert_eq!((a, b), (0.0, 0.0), "{kind}");
+                    continue;
+                }
+                assert!(error < 0.05 * b, "{kind} {center}: {error} is no test of {b}");
+                assert!((a - b).abs() < 4.5 * error, "{kind} {center}: {a} sent, {b} arrived ± {error}");
+            }
+        }
+    }
 }

@@ -13,6 +13,7 @@ use crate::RenderError;
 use crate::bsdf::Event;
 use crate::bvh::Ray;
 use crate::intersect::Traversal;
+use crate::lights::Ball;
 use crate::prepare::Prepared;
 use crate::request::DEEPEST;
 use crate::sampler::{Independent, Sampler, mix, pixel_key};
@@ -177,28 +178,13 @@ impl PhotonMaps {
             return Err(wrong("photon maps of", value, "a scene without a medium and without moving bodies"));
         }
         let start = std::time::Instant::now();
-        let key = pixel_key(mix(seed ^ LIGHT_PATHS), LIGHT_PATHS);
-        let paths = settings.paths.max(settings.caustic_paths);
-        let pieces: Vec<[Vec<Photon>; 2]> = (0..paths.div_ceil(PIECE))
-            .into_par_iter()
-            .map_init(
-                || scene.traversal(),
-                |traversal, piece| {
-                    let mut found = [Vec::new(), Vec::new()];
-                    for path in piece * PIECE..((piece + 1) * PIECE).min(paths) {
-                        let wanted = [path < settings.caustic_paths, path < settings.paths];
-                        follow(scene, Independent::new(key, path), wanted, traversal, &mut found);
-                    }
-                    found
-                },
-            )
-            .collect();
-        let counts = [settings.caustic_paths, settings.paths];
-        let [caustic, global] = [0, 1].map(|map| {
-            let share = 1.0 / counts[map] as f32;
-            let photons = pieces.iter().flat_map(|piece| &piece[map]);
-            Map::new(photons.map(|p| Photon { flux: p.flux.map(|f| f * share), ..*p }).collect())
-        });
+        let everything = Ball { center: scene.center, radius: scene.radius };
+        let caustic = match scene.turning {
+            Some(ball) => shoot(scene, settings.caustic_paths, ball, true, seed),
+            None => Vec::new(),
+        };
+        let global = shoot(scene, settings.paths, everything, false, seed);
+        let [caustic, global] = [caustic, global].map(Map::new);
         Ok(Self {
             scene: scene.id().to_owned(),
             settings: *settings,
@@ -261,18 +247,42 @@ impl PhotonMaps {
     }
 }
 
-/// Follows one light path; puts its photons into the caustic and the global list, as far as they are wanted.
+/// Follows `paths` light paths towards a sphere. `caustic`: keeps only what specular and glossy surfaces alone have turned,
+/// which must all be in the sphere; else keeps everything.
+fn shoot(scene: &Prepared, paths: u32, target: Ball, caustic: bool, seed: u64) -> Vec<Photon> {
+    let key = pixel_key(mix(seed ^ LIGHT_PATHS), u64::from(caustic));
+    let chances = scene.lights.towards(target);
+    let share = 1.0 / paths as f32; // at least one: checked
+    let pieces: Vec<Vec<Photon>> = (0..paths.div_ceil(PIECE))
+        .into_par_iter()
+        .map_init(
+            || scene.traversal(),
+            |traversal, piece| {
+                let mut found = Vec::new();
+                for path in piece * PIECE..((piece + 1) * PIECE).min(paths) {
+                    let sampler = Independent::new(key, path);
+                    let (u, v) = (sampler.group(0), sampler.group(1));
+                    if let Some((origin, direction, flux)) = scene.lights.emit(u, v, target, &chances) {
+                        let ray = Ray { origin, direction };
+                        follow(scene, sampler, (ray, flux * share), caustic, traversal, &mut found);
+                    }
+                }
+                found
+            },
+        )
+        .collect();
+    pieces.concat()
+}
+
+/// Follows one light path and keeps its photons.
 fn follow(
     scene: &Prepared,
     sampler: Independent,
-    wanted: [bool; 2],
+    (mut ray, mut flux): (Ray, Vec3A),
+    caustic: bool,
     traversal: &mut Traversal,
-    found: &mut [Vec<Photon>; 2],
+    found: &mut Vec<Photon>,
 ) {
-    let emitted = scene.lights.emit(sampler.group(0), sampler.group(1), scene.center, scene.radius);
-    let Some((origin, direction, mut flux)) = emitted else { return };
-    let mut ray = Ray { origin, direction };
-    let mut caustic = true;
     for edge in 1..DEEPEST {
         let Some(hit) = scene.closest::<false>(&ray, f32::INFINITY, traversal) else { return };
         let at = scene.interact::<false>(&ray, &hit, traversal);
@@ -281,23 +291,16 @@ fn follow(
         let (shading, facing) = (arriving.dot(at.normal), arriving.dot(at.geometric));
         let event = surface.scatter.at(at.uv);
         let diffuse = matches!(event, Event::Lobe(crate::bsdf::Lobe::Diffuse { .. }));
-        if diffuse {
+        if diffuse && !(caustic && edge == 1) {
             let bent = (shading / facing.max(1e-6)).min(MOST_CORRECTION);
-            let photon = Photon {
+            found.push(Photon {
                 position: at.point.to_array(),
                 normal: at.geometric.to_array(),
                 flux: (flux * bent).to_array(),
                 edges: edge,
-            };
-            if wanted[0] && caustic && edge > 1 {
-                found[0].push(photon);
-            }
-            if wanted[1] {
-                found[1].push(photon);
-            }
-            caustic = false;
+            });
         }
-        if !(wanted[1] || caustic) {
+        if diffuse && caustic {
             return;
         }
         let u = sampler.group(edge + 1);

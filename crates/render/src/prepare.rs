@@ -7,7 +7,7 @@ use obvhs::aabb::Aabb;
 
 use crate::bvh::{Bvh, Primitive};
 use crate::intersect::Moving;
-use crate::lights::{Lights, LightsBuilder, SunDisc};
+use crate::lights::{Ball, Lights, LightsBuilder, SunDisc};
 use crate::medium::Medium;
 use crate::surface::{Attributes, Geometry, NONE, Scatter, Surface, Tint};
 use crate::{Quantity, RenderError, available};
@@ -34,6 +34,8 @@ pub struct Prepared {
     pub(crate) center: Vec3A,
     /// Radius of the sphere, positive.
     pub(crate) radius: f32,
+    /// Sphere around all specular and glossy surfaces, which turn light into caustics.
+    pub(crate) turning: Option<Ball>,
     /// Distances to the eye light below this count as this.
     pub(crate) least_eye_distance: f32,
     models: Models,
@@ -87,6 +89,7 @@ impl Prepared {
             let half_angle = sun.half_angle_degrees.to_radians();
             SunDisc::new(Vec3A::from(sun.direction).normalize(), half_angle, sun.irradiance.into())
         });
+        let turning = turning(&parts);
         let lights = parts.lights.finish(sun, scene.sky.as_ref(), radius);
         Ok(Self {
             id: scene.id.to_string(),
@@ -102,6 +105,7 @@ impl Prepared {
             camera_move: animation.map(|a| a.camera),
             center: (low + high) * 0.5,
             radius: radius.max(f32::MIN_POSITIVE),
+            turning,
             least_eye_distance: LEAST_EYE_DISTANCE * radius,
             models: scene.models(),
             available: available(scene),
@@ -132,6 +136,18 @@ impl Prepared {
     pub fn dropped_triangles(&self) -> usize {
         self.dropped
     }
+}
+
+/// Sphere around what stands still and is not diffuse.
+fn turning(parts: &Parts<'_>) -> Option<Ball> {
+    let turns = |g: &Geometry| !matches!(parts.surfaces[g.material as usize].scatter, Scatter::Diffuse(_));
+    // Primitives that stand still come first in both lists.
+    let found = parts.primitives.iter().zip(&parts.geometry).filter(|(_, g)| turns(g));
+    let both = |a: Aabb, b: Aabb| Aabb::new(a.min.min(b.min), a.max.max(b.max));
+    let bounds = found.map(|(p, _)| p.bounds()).reduce(both)?;
+    let radius = 0.5 * (bounds.max - bounds.min).length();
+    // With room for rounding.
+    Some(Ball { center: (bounds.min + bounds.max) * 0.5, radius: (radius * 1.0001).max(f32::MIN_POSITIVE) })
 }
 
 /// The coordinates that a body's movement adds to.

@@ -11,5 +11,6 @@ mod kitchen;
 pub mod nave;
 pub mod outdoor;
 pub mod rings;
+pub mod shower;
 pub mod toaster;
 pub mod two_quads;

@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, toaster, two_quads};
+use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, shower, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -35,6 +35,11 @@ const SCENES: &[SceneEntry] = &[
         id: outdoor::ID,
         about: "shaded brick courtyard with two potted shrubs: stands in for the outdoor scene of moon2013flash",
         build: outdoor::outdoor,
+    },
+    SceneEntry {
+        id: shower::ID,
+        about: "tiled booth with a glass pane, a glossy can and strong caustics: stands in for the shower booth of moon2013flash",
+        build: shower::shower,
     },
     SceneEntry {
         id: rings::ID,

@@ -42,7 +42,7 @@ fn booth(scene: &mut Scene) {
     let sand = [Vec3::new(0.55, 0.48, 0.38), Vec3::new(0.75, 0.68, 0.56)];
     let mosaic = scene.add_material(Material::diffuse("mosaic", tiles(0.42, 0.045, sand, 8)));
     let plaster = scene.add_material(Material::diffuse("plaster", Vec3::splat(0.78)));
-    let ceramic = scene.add_material(Material::diffuse("ceramic", Vec3::splat(0.86)));
+    let slate = scene.add_material(Material::diffuse("slate", Vec3::new(0.3, 0.29, 0.28)));
     let (low, high) = (Vec3::new(-5.0, 0.0, -5.0), Vec3::new(18.0, 22.0, 20.0));
     let (x, y, z) = (Vec3::X * 23.0, Vec3::Y * 22.0, Vec3::Z * 25.0);
     scene.add_mesh(quad(low, x, y), wall);
@@ -52,17 +52,17 @@ fn booth(scene: &mut Scene) {
     let bench = cuboid(Vec3::new(-5.0, 0.0, -5.0), Vec3::new(2.2, BENCH - 0.25, -1.2));
     scene.add_mesh(bench, mosaic);
     let top = rounded_box(Vec3::new(3.68, 0.125, 1.98), 0.06, 2);
-    scene.add_mesh(top.translated(Vec3::new(-1.4, BENCH - 0.125, -3.08)), ceramic);
+    scene.add_mesh(top.translated(Vec3::new(-1.4, BENCH - 0.125, -3.08)), slate);
 }
 
 /// A small spot for the caustics and a dim panel far behind the camera.
 fn lamps(scene: &mut Scene) {
-    let spot = scene.add_material(Material::emitter("spot", Vec3::new(620.0, 560.0, 480.0)));
-    let (center, half) = (Vec3::new(1.9, 13.5, -4.3), 0.3);
+    let spot = scene.add_material(Material::emitter("spot", Vec3::new(1000.0, 900.0, 770.0)));
+    let (center, half) = (Vec3::new(2.3, 11.0, -2.9), 0.2);
     let front = (Vec3::new(-0.9, BENCH, -2.4) - center).normalize();
     let (u, v) = front.any_orthonormal_pair();
     scene.add_mesh(quad(center - (u + v) * half, u * (2.0 * half), v * (2.0 * half)), spot);
-    let panel = scene.add_material(Material::emitter("panel", Vec3::new(1.9, 2.05, 2.2)));
+    let panel = scene.add_material(Material::emitter("panel", Vec3::new(1.3, 1.4, 1.5)));
     scene.add_mesh(quad(Vec3::new(2.0, 21.95, 6.0), Vec3::X * 10.0, Vec3::Z * 10.0), panel);
 }
 
@@ -128,7 +128,7 @@ fn on_the_bench(scene: &mut Scene) {
         }),
     ));
     let block = rounded_box(Vec3::new(0.6, 0.28, 0.4), 0.08, 3).translated(Vec3::Y * 0.28);
-    scene.add_mesh(place(block.turned(12.0), 1.35, -2.1), sponge);
+    scene.add_mesh(place(block.turned(12.0), -4.1, -2.4), sponge);
 }
 
 /// A solid glass bottle with a ball for a stopper, closed.
