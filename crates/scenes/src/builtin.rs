@@ -10,5 +10,6 @@ mod kitchen;
 pub mod nave;
 pub mod outdoor;
 pub mod rings;
+pub mod teapot;
 pub mod toaster;
 pub mod two_quads;
