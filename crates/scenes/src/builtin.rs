@@ -12,5 +12,6 @@ pub mod nave;
 pub mod outdoor;
 pub mod rings;
 pub mod shower;
+pub mod teapot;
 pub mod toaster;
 pub mod two_quads;

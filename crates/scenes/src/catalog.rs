@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, shower, toaster, two_quads};
+use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, shower, teapot, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -55,6 +55,11 @@ const SCENES: &[SceneEntry] = &[
         id: nave::ID,
         about: "church nave under a thin lens, lit through its windows: stands in for the Sibenik cathedral of rousselle2013rdfc",
         build: nave::nave,
+    },
+    SceneEntry {
+        id: teapot::ID,
+        about: "glossy metal teapot on stone as irregular as noise: stands in for the teapot-metal scene of rousselle2013rdfc",
+        build: teapot::teapot,
     },
     SceneEntry {
         id: two_quads::ID,

@@ -10,6 +10,7 @@ mod round;
 mod smooth;
 mod surface;
 mod sweep;
+mod teapot;
 #[cfg(test)]
 mod tests;
 
@@ -18,6 +19,7 @@ pub use plant::LeafShape;
 pub use round::{arc, cylinder, lathe, rounded_box};
 pub use surface::{Vertex, surface};
 pub use sweep::{fan, slab, tube};
+pub use teapot::teapot;
 
 use glam::{Affine3A, Vec3, Vec3A};
 

@@ -7,12 +7,14 @@ mod image;
 mod masonry;
 mod noise;
 mod organic;
+mod stone;
 mod wood;
 
 pub use image::{ImageSizeError, ImageTexture, Wrap};
 pub use masonry::{Bricks, Tiles};
 pub use noise::{Clouds, Streaks, fractal, value_noise};
 pub use organic::{Bread, Leaf};
+pub use stone::Granite;
 pub use wood::Wood;
 
 use glam::{Vec2, Vec3};
@@ -55,6 +57,8 @@ pub enum Texture {
     Streaks(Streaks),
     /// Leaves with veins.
     Leaf(Leaf),
+    /// Grains of stone.
+    Granite(Granite),
     /// A slice of toast.
     Bread(Bread),
     /// An image from a file.
@@ -85,6 +89,7 @@ impl Texture {
             Self::Clouds(t) => t.eval(uv),
             Self::Streaks(t) => t.eval(uv),
             Self::Leaf(t) => t.eval(uv),
+            Self::Granite(t) => t.eval(uv),
             Self::Bread(t) => t.eval(uv),
             Self::Image(t) => t.eval(uv),
         }

@@ -231,7 +231,7 @@ fn windows(scene: &mut Scene, stones: &Stones) {
         })
     };
     // Nearly white where most of the light comes from: a strong colour per pane would be a strong colour per sample.
-    let sunny = glass("in the sun", 34.0, 0.75);
+    let sunny = glass("in the sun", 28.0, 0.75);
     let shady = glass("in the shade", 2.2, 0.0);
     for left in [true, false] {
         for bay in 0..BAYS {

@@ -16,6 +16,7 @@ fn all() -> Vec<Texture> {
         Texture::Clouds(Clouds { frequency: Vec2::splat(4.0), octaves: 3, a, b, seed: 4 }),
         Texture::Streaks(Streaks { width: 0.01, length: 1.0, dark: DARK, bright: BRIGHT, seed: 5 }),
         Texture::Leaf(Leaf { colors, vein: BRIGHT, seed: 6 }),
+        Texture::Granite(Granite { grain: 0.1, colors: [a, b, DARK, BRIGHT], seed: 8 }),
         Texture::Bread(Bread { crumb: BRIGHT, toasted: DARK, crust: DARK, seed: 7 }),
     ]
 }
@@ -83,4 +84,23 @@ fn brick_wall_shows_mortar_in_its_share_of_the_area() {
         (share - expected).abs() < 4.0 * (expected / f64::from(n)).sqrt() + 0.02,
         "{share} for {expected}"
     );
+}
+
+#[test]
+fn granite_shows_its_minerals_in_their_shares() {
+    let colors = [Vec3::X, Vec3::Y, Vec3::Z, Vec3::ONE];
+    let stone = Granite { grain: 0.1, colors, seed: 3 };
+    let mut placement = Placement::new(4);
+    let n = 20_000;
+    let mut counts = [0.0; 4];
+    for _ in 0..n {
+        let c = stone.eval(Vec2::new(placement.range(0.0, 90.0), placement.range(0.0, 90.0)));
+        let index = if c.min_element() > 0.0 { 3 } else { c.max_position() };
+        counts[index] += 1.0 / f64::from(n);
+    }
+    for (share, expected) in counts.into_iter().zip([0.5, 0.25, 0.125, 0.125]) {
+        // Four standard errors; points are so far apart that hardly two share a grain.
+        let error: f64 = (expected * (1.0 - expected) / f64::from(n)).sqrt();
+        assert!((share - expected).abs() < 4.0 * error, "{share} for {expected}");
+    }
 }
