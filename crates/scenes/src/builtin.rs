@@ -7,5 +7,6 @@ mod garden;
 mod kitchen;
 pub mod outdoor;
 pub mod rings;
+pub mod spin;
 pub mod toaster;
 pub mod two_quads;
