@@ -12,6 +12,7 @@ pub mod nave;
 pub mod outdoor;
 pub mod rings;
 pub mod shower;
+pub mod spin;
 pub mod teapot;
 pub mod toaster;
 pub mod two_quads;

@@ -2,7 +2,9 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, fog, nave, outdoor, rings, shower, teapot, toaster, two_quads};
+use crate::builtin::{
+    conference, cornell, fog, nave, outdoor, rings, shower, spin, teapot, toaster, two_quads,
+};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -70,6 +72,11 @@ const SCENES: &[SceneEntry] = &[
         id: fog::ID,
         about: "winged serpent in a dark hall, lit through slits: stands in for the dragon in fog of rousselle2013rdfc",
         build: fog::fog,
+    },
+    SceneEntry {
+        id: spin::ID,
+        about: "fan, wheel, top, ball and letter block on a table: stands in for the motion blur of liu2018robust",
+        build: spin::spin,
     },
     SceneEntry {
         id: "furnace",

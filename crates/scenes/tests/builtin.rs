@@ -43,6 +43,7 @@ fn models_declare_what_the_contents_show() {
     let meeting = Models { textures: true, glossy: true, area_lights: true, ..none };
     assert_eq!(scene("conference").models(), meeting);
     assert_eq!(scene("teapot").models(), meeting);
+    assert_eq!(scene("spin").models(), meeting);
     let quads = Models { depth_of_field: true, textures: true, sky: true, ..none };
     assert_eq!(scene("two-quads").models(), quads);
     // Finite lamps only: a medium fills a closed scene, and light from infinitely far away could not get in.
@@ -64,6 +65,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("nave", 20_000..120_000),
         ("rings", 50_000..150_000),
         ("fog", 60_000..200_000),
+        ("spin", 5_000..60_000),
     ] {
         let count = triangles(&scene(id));
         assert!(budget.contains(&count), "{id} has {count}");

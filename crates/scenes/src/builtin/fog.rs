@@ -197,3 +197,55 @@ fn figure(scene: &mut Scene) {
     scene.add_mesh(head.mouth.transformed(pose), mouth);
     scene.add_mesh(membranes, hide);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mesh<'a>(scene: &'a Scene, material: &str) -> &'a Mesh {
+        let named = |mesh: &&Mesh| scene.materials[mesh.material].name == material;
+        scene.meshes.iter().find(named).expect("the scene has this material")
+    }
+
+    #[test]
+    fn everything_lies_within_the_hall_and_the_figure_on_the_near_side_of_the_slits() {
+        let scene = fog();
+        for p in scene.meshes.iter().flat_map(|mesh| &mesh.positions) {
+            assert!(p.cmpge(LOW - 1e-4).all() && p.cmple(HIGH + 1e-4).all(), "{p}");
+        }
+        for part in ["skin", "scales", "horn", "eye", "mouth", "hide"] {
+            assert!(mesh(&scene, part).positions.iter().all(|p| p.x > WALL + 0.5), "{part}");
+        }
+        assert!(scene.camera.eye.cmpgt(LOW).all() && scene.camera.eye.cmplt(HIGH).all());
+    }
+
+    #[test]
+    fn coil_lies_on_the_pedestal() {
+        // Where it is over the disc, the body may sink into it by less than a twentieth of its thickness.
+        for s in serpent::coil(PEDESTAL).iter().filter(|s| Vec2::new(s.at.x, s.at.z).length() < 1.3) {
+            assert!(s.at.y - 0.95 * s.radius > PEDESTAL - 0.02, "{} with radius {}", s.at, s.radius);
+        }
+    }
+
+    #[test]
+    fn lamp_reaches_the_head_through_a_slit_but_not_the_camera() {
+        let scene = fog();
+        let lamp = mesh(&scene, "lamp");
+        let blocked = |to: Vec3| {
+            let from = 0.5 * (lamp.positions[0] + lamp.positions[2]);
+            let walls = mesh(&scene, "ashlar");
+            walls.triangles.iter().any(|t| crosses(from, to, t.map(|i| walls.positions[i as usize])))
+        };
+        let head = mesh(&scene, "eye").positions[0];
+        assert!(!blocked(head), "{head} is in the wall's shadow");
+        assert!(blocked(scene.camera.eye), "the lamp shines into the camera");
+    }
+
+    /// Whether the straight line between two points passes through a triangle.
+    fn crosses(from: Vec3, to: Vec3, [a, b, c]: [Vec3; 3]) -> bool {
+        let volume = |p: Vec3, q: Vec3, r: Vec3, s: Vec3| (q - p).cross(r - p).dot(s - p);
+        let apart = volume(a, b, c, from) * volume(a, b, c, to) < 0.0;
+        let turns = [volume(from, to, a, b), volume(from, to, b, c), volume(from, to, c, a)];
+        apart && (turns.iter().all(|v| *v > 0.0) || turns.iter().all(|v| *v < 0.0))
+    }
+}

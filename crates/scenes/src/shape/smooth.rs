@@ -9,7 +9,8 @@ impl Mesh {
     /// count as one, so a surface that closes on itself shows no seam.
     #[must_use]
     pub fn smoothed(mut self) -> Self {
-        let place = |p: Vec3| p.to_array().map(f32::to_bits);
+        // Adding zero makes the two zeros one.
+        let place = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
         let mut sums: HashMap<[u32; 3], Vec3> = HashMap::new();
         for t in &self.triangles {
             let corners = t.map(|i| self.positions[i as usize]);
