@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{conference, cornell, outdoor, rings, toaster, two_quads};
+use crate::builtin::{bathroom, conference, cornell, outdoor, rings, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -45,6 +45,11 @@ const SCENES: &[SceneEntry] = &[
         id: conference::ID,
         about: "meeting room with many lamps and thin furniture: stands in for the conference room of rousselle2013rdfc",
         build: conference::conference,
+    },
+    SceneEntry {
+        id: bathroom::ID,
+        about: "bathroom with mirrors, lit by way of its ceiling: stands in for the bathroom of moon2013flash",
+        build: bathroom::bathroom,
     },
     SceneEntry {
         id: two_quads::ID,
