@@ -1,5 +1,7 @@
 //! One file per built-in scene, or per large part of one.
 
+pub mod bathroom;
+mod bathware;
 mod choir;
 mod church;
 mod column;

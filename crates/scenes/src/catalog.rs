@@ -3,7 +3,7 @@ use thiserror::Error;
 use crate::Scene;
 use crate::analytic;
 use crate::builtin::{
-    conference, cornell, fog, nave, outdoor, rings, shower, spin, teapot, toaster, two_quads,
+    bathroom, conference, cornell, fog, nave, outdoor, rings, shower, spin, teapot, toaster, two_quads,
 };
 
 /// A scene that can be built by name.
@@ -39,6 +39,11 @@ const SCENES: &[SceneEntry] = &[
         build: outdoor::outdoor,
     },
     SceneEntry {
+        id: bathroom::ID,
+        about: "bathroom with mirrors, lit by way of its ceiling: stands in for the bathroom of moon2013flash",
+        build: bathroom::bathroom,
+    },
+    SceneEntry {
         id: shower::ID,
         about: "tiled booth with a glass pane, a glossy can and strong caustics: stands in for the shower booth of moon2013flash",
         build: shower::shower,
@@ -64,11 +69,6 @@ const SCENES: &[SceneEntry] = &[
         build: teapot::teapot,
     },
     SceneEntry {
-        id: two_quads::ID,
-        about: "a textured quad in focus beside one far out of focus: stands in for rousselle2013rdfc Fig. 3",
-        build: two_quads::two_quads,
-    },
-    SceneEntry {
         id: fog::ID,
         about: "winged serpent in a dark hall, lit through slits: stands in for the dragon in fog of rousselle2013rdfc",
         build: fog::fog,
@@ -77,6 +77,11 @@ const SCENES: &[SceneEntry] = &[
         id: spin::ID,
         about: "fan, wheel, top, ball and letter block on a table: stands in for the motion blur of liu2018robust",
         build: spin::spin,
+    },
+    SceneEntry {
+        id: two_quads::ID,
+        about: "a textured quad in focus beside one far out of focus: stands in for rousselle2013rdfc Fig. 3",
+        build: two_quads::two_quads,
     },
     SceneEntry {
         id: "furnace",

@@ -1,6 +1,8 @@
 //! What holds for every built-in scene.
 
-use glam::Vec3;
+use std::collections::HashMap;
+
+use glam::{Vec2, Vec3};
 use noisefloor_scenes::{Color, Material, Mesh, Models, Scattering, Scene, builtin, find};
 
 fn scenes() -> impl Iterator<Item = Scene> {
@@ -43,11 +45,12 @@ fn models_declare_what_the_contents_show() {
     let meeting = Models { textures: true, glossy: true, area_lights: true, ..none };
     assert_eq!(scene("conference").models(), meeting);
     assert_eq!(scene("teapot").models(), meeting);
-    assert_eq!(scene("spin").models(), meeting);
+    assert_eq!(scene("spin").models(), Models { motion_blur: true, ..meeting });
+    assert_eq!(scene("bathroom").models(), Models { specular: true, ..meeting });
     let quads = Models { depth_of_field: true, textures: true, sky: true, ..none };
     assert_eq!(scene("two-quads").models(), quads);
     // Finite lamps only: a medium fills a closed scene, and light from infinitely far away could not get in.
-    assert_eq!(scene("fog").models(), Models { textures: true, area_lights: true, ..none });
+    assert_eq!(scene("fog").models(), Models { textures: true, area_lights: true, medium: true, ..none });
     for id in ["furnace", "direct", "gradient"] {
         assert_eq!(scene(id).models(), Models { area_lights: true, ..none }, "{id}");
     }
@@ -63,6 +66,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("conference", 8_000..30_000),
         ("teapot", 30_000..60_000),
         ("nave", 20_000..120_000),
+        ("bathroom", 10_000..60_000),
         ("rings", 50_000..150_000),
         ("fog", 60_000..200_000),
         ("spin", 5_000..60_000),
@@ -92,10 +96,33 @@ fn lamps_shine_on_what_the_camera_looks_at() {
                 let front = (b - a).cross(c - a);
                 // Or on the camera, where the lamp is all around it.
                 let [target, eye] = [scene.camera.target, scene.camera.eye].map(|p| front.dot(p - a));
-                assert!(target.max(eye) > 0.0, "{}: a lamp faces away", scene.id);
+                // Or it lights the room by way of the ceiling, which must then be above it.
+                let uplight = front.normalize().y > 0.999 && roofed(&scene, (a + b + c) / 3.0);
+                assert!(target.max(eye) > 0.0 || uplight, "{}: a lamp faces away", scene.id);
             }
         }
     }
+}
+
+/// Whether some triangle that looks down is straight above `point`.
+fn roofed(scene: &Scene, point: Vec3) -> bool {
+    scene.meshes.iter().any(|mesh| {
+        mesh.triangles.iter().any(|t| {
+            let corners = t.map(|i| mesh.positions[i as usize] - point);
+            let flat = corners.map(|p| Vec2::new(p.x, p.z));
+            // Seen from above, a front that looks down runs clockwise about every point in it.
+            let around = (0..3).all(|k| flat[k].perp_dot(flat[(k + 1) % 3]) >= 0.0);
+            face(mesh, t).normalize().y < -0.999 && around && corners[0].y > 0.0
+        })
+    })
+}
+
+#[test]
+fn only_what_is_below_a_ceiling_is_roofed() {
+    let room = scene("bathroom");
+    assert!(roofed(&room, Vec3::new(0.0, 2.2, 0.0)));
+    assert!(!roofed(&room, Vec3::new(0.0, 2.6, 0.0)), "over the ceiling");
+    assert!(!roofed(&room, Vec3::new(2.0, 2.2, 0.0)), "outside");
 }
 
 #[test]
@@ -112,13 +139,52 @@ fn shading_normals_never_oppose_the_triangle() {
     }
 }
 
-/// Glass on a mesh would need a proof that the mesh is closed; so far only exact spheres are glass.
+/// Refraction needs to know inside from outside.
 #[test]
-fn glass_is_closed() {
+fn glass_is_closed_and_faces_outwards() {
     let glass = |m: &Material| matches!(m.scattering, Scattering::Glass { .. });
     for scene in scenes() {
-        assert!(scene.meshes.iter().all(|mesh| !glass(&scene.materials[mesh.material])), "{}", scene.id);
+        for mesh in scene.meshes.iter().filter(|mesh| glass(&scene.materials[mesh.material])) {
+            let name = &scene.materials[mesh.material].name;
+            assert!(is_closed(mesh), "{}: `{name}` has a hole", scene.id);
+            assert!(volume(mesh) > 0.0, "{}: `{name}` is inside out", scene.id);
+        }
     }
+}
+
+#[test]
+fn holes_doubled_and_turned_triangles_are_not_closed() {
+    let whole = noisefloor_scenes::shape::cuboid(Vec3::new(0.1, 0.2, 0.3), Vec3::new(0.5, 0.9, 0.7));
+    assert!(is_closed(&whole) && (volume(&whole) - 0.112).abs() < 1e-6);
+    assert!(is_closed(&whole.clone().flipped()) && volume(&whole.clone().flipped()) < 0.0);
+    let changed = |change: fn(&mut Mesh)| {
+        let mut mesh = whole.clone();
+        change(&mut mesh);
+        is_closed(&mesh)
+    };
+    assert!(!changed(|mesh| mesh.triangles.truncate(11)), "a triangle is missing");
+    assert!(!changed(|mesh| mesh.triangles.push(mesh.triangles[0])), "a triangle is there twice");
+    assert!(!changed(|mesh| mesh.triangles[3].swap(0, 1)), "a triangle is turned");
+    assert!(!changed(|mesh| mesh.positions[2].x += 1e-3), "a seam gapes");
+}
+
+/// Every directed edge has exactly one partner in the other direction, vertices at one place counting as one. A place
+/// is a cube with sides of a hundred-thousandth of the scene's unit.
+fn is_closed(mesh: &Mesh) -> bool {
+    let place = |i: u32| (mesh.positions[i as usize] * 1e5).to_array().map(|c| c.round() as i64);
+    let mut edges = HashMap::new();
+    for t in &mesh.triangles {
+        for k in 0..3 {
+            *edges.entry((place(t[k]), place(t[(k + 1) % 3]))).or_insert(0) += 1;
+        }
+    }
+    edges.iter().all(|(&(a, b), &n)| n == 1 && edges.get(&(b, a)) == Some(&1))
+}
+
+/// Volume by the divergence theorem; positive if fronts look outwards.
+fn volume(mesh: &Mesh) -> f32 {
+    let at = |i: u32| mesh.positions[i as usize];
+    mesh.triangles.iter().map(|&[a, b, c]| at(a).dot(at(b).cross(at(c))) / 6.0).sum()
 }
 
 #[test]

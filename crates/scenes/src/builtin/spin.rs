@@ -15,7 +15,7 @@ use glam::{Affine3A, Quat, Vec2, Vec3};
 
 use crate::shape::{Vertex, arc, cuboid, lathe, quad, surface};
 use crate::texture::{Clouds, Texture, Tiles, Wood};
-use crate::{CameraSpec, Material, Mesh, Scene};
+use crate::{Body, CameraSpec, Material, Mesh, Scene, Spin};
 
 pub const ID: &str = "spin";
 
@@ -89,7 +89,27 @@ pub fn spin() -> Scene {
         block::block(0.55).transformed(Affine3A::from_rotation_translation(tumble, BLOCK)),
         letters,
     );
+    movements(&mut scene);
     scene
+}
+
+/// What each thing does in a frame, half of which the shutter sees.
+fn movements(scene: &mut Scene) {
+    let upright = |degrees: f32| Quat::from_rotation_y(degrees.to_radians()) * Vec3::Z;
+    let lift = Vec3::Y * 0.012;
+    // The ball rolls without slipping: its way over its radius is its angle.
+    let roll = 0.6;
+    let movements = [
+        (9..11, FAN, upright(FAN_TURN), 50.0, Vec3::ZERO),
+        (11..14, WHEEL, upright(WHEEL_TURN), 22.0, Vec3::ZERO),
+        (14..16, TOP + lift, TOP_AXIS.normalize(), 70.0, Vec3::ZERO),
+        (16..17, BALL + lift, Vec3::NEG_Z, (roll / BALL_RADIUS).to_degrees(), Vec3::X * roll),
+        (17..18, BLOCK, Vec3::new(0.4, 0.8, 0.4).normalize(), 36.0, Vec3::new(0.8, 0.25, 0.0)),
+    ];
+    for (meshes, center, axis, degrees, translation) in movements {
+        let spin = Some(Spin { center, axis, degrees });
+        scene.add_body(0.5, Body { meshes: meshes.collect(), translation, spin });
+    }
 }
 
 /// Table, tiled wall, and the plain rest of the room, which the metal reflects.
