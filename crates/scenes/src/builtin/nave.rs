@@ -49,13 +49,14 @@ pub struct Stones {
 
 pub fn nave() -> Scene {
     let (eye, target) = (Vec3::new(1.75, 1.7, 6.2), Vec3::new(-0.75, 3.1, -6.0));
+    // The second column in view on the left, at the eye's height.
+    let in_focus = Vec3::new(-NAVE - 0.5 * THICK, eye.y, NEAR - 3.0 * BAY);
     let camera = CameraSpec {
         eye,
         target,
         up: Vec3::Y,
         vertical_fov_degrees: 54.0,
-        // In focus is the third column from the camera on the left.
-        lens: Some(Lens { radius: 0.07, focus_distance: 10.4 }),
+        lens: Some(Lens { radius: 0.09, focus_distance: (in_focus - eye).dot((target - eye).normalize()) }),
     };
     let mut scene = Scene::empty(ID, "Church nave, depth of field", camera);
     let stones = stones(&mut scene);
