@@ -2,7 +2,7 @@
 
 use noisefloor_frame::{Frame, PixelFilter, Sampling};
 use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
-use noisefloor_scenes::analytic::{BALL_OFFSET, ball_irradiance, panel_irradiance};
+use noisefloor_scenes::analytic::{BALL_OFFSET, ball_irradiance, panel_irradiance, panel_irradiance_at};
 use noisefloor_scenes::{Scene, find};
 
 const WIDTH: usize = 16;
@@ -101,19 +101,28 @@ fn the_furnace_is_the_geometric_sum_of_its_depth() {
     }
 }
 
+/// 0.6/π times the irradiance of the lamp of `direct`, where a pixel sees the plane.
+fn direct_truth() -> Vec<Option<f64>> {
+    let inside = |p: &glam::DVec3| p.x.abs() < 4.5 && p.z.abs() < 4.5;
+    let value = |p: glam::DVec3| 0.6 / std::f64::consts::PI * panel_irradiance_at(1.0, 1.5, p.x, p.z);
+    // Rays that rise meet the plane behind the eye.
+    let falls = |pixel: usize| pixel / WIDTH >= HEIGHT / 2;
+    let points = points(&scene("direct")).into_iter().enumerate();
+    points.map(|(pixel, p)| (falls(pixel) && inside(&p)).then(|| value(p))).collect()
+}
+
 /// Slope of log RMS error against log samples, one value per random seed.
-fn slopes(sampling: Sampling) -> Vec<f64> {
-    let prepared = Prepared::new(&scene("gradient")).unwrap();
-    let truth = gradient_truth();
+fn slopes(id: &str, truth: &[Option<f64>], sampling: Sampling) -> Vec<f64> {
+    let prepared = Prepared::new(&scene(id)).unwrap();
     (0..8)
         .map(|seed| {
             let points: Vec<(f64, f64)> = [16u32, 64, 256, 1024]
                 .into_iter()
                 .map(|spp| {
                     let frame = image(&prepared, spp, seed, sampling);
-                    let squares = frame.color.mean.plane(1).iter().zip(&truth);
-                    let mse =
-                        squares.map(|(v, t)| (f64::from(*v) - t).powi(2)).sum::<f64>() / truth.len() as f64;
+                    let known =
+                        frame.color.mean.plane(1).iter().zip(truth).filter_map(|(v, t)| Some((*v, (*t)?)));
+                    let mse = known.map(|(v, t)| (f64::from(v) - t).powi(2)).sum::<f64>();
                     (f64::from(spp).ln(), 0.5 * mse.ln())
                 })
                 .collect();
@@ -127,8 +136,17 @@ fn slopes(sampling: Sampling) -> Vec<f64> {
 
 #[test]
 fn low_discrepancy_errors_fall_faster_than_independent_ones() {
+    let gradient: Vec<Option<f64>> = gradient_truth().into_iter().map(Some).collect();
+    let direct = direct_truth();
+    assert!(direct.iter().flatten().count() >= WIDTH * HEIGHT / 3);
+    for (id, truth) in [("gradient", &gradient), ("direct", &direct)] {
+        compare_slopes(id, truth);
+    }
+}
+
+fn compare_slopes(id: &str, truth: &[Option<f64>]) {
     let told = |sampling| {
-        let slopes = slopes(sampling);
+        let slopes = slopes(id, truth, sampling);
         let n = slopes.len() as f64;
         let mean = slopes.iter().sum::<f64>() / n;
         let variance = slopes.iter().map(|s| (s - mean).powi(2)).sum::<f64>() / (n - 1.0);
@@ -136,7 +154,9 @@ fn low_discrepancy_errors_fall_faster_than_independent_ones() {
     };
     // t with 7 degrees of freedom at one side 0.1 %: 4.79.
     let (independent, error) = told(Sampling::Independent);
-    assert!((independent + 0.5).abs() < 4.79 * error, "{independent} ± {error}");
+    println!("{id}: independent {independent:.3} ± {error:.3}");
+    assert!((independent + 0.5).abs() < 4.79 * error, "{id}: {independent} ± {error}");
     let (low, error) = told(Sampling::LowDiscrepancy);
-    assert!(low + 4.79 * error < -0.5, "{low} ± {error} is no faster than n^-½");
+    println!("{id}: low-discrepancy {low:.3} ± {error:.3}");
+    assert!(low + 4.79 * error < -0.5, "{id}: {low} ± {error} is no faster than n^-½");
 }

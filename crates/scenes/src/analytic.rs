@@ -67,6 +67,19 @@ pub fn panel_irradiance(half: f64, height: f64) -> f64 {
     4.0 * a * a.atan()
 }
 
+/// The same at a point `x` and `z` aside of the middle: a signed sum over the rectangles between the point's foot and the
+/// four corners.
+#[must_use]
+pub fn panel_irradiance_at(half: f64, height: f64, x: f64, z: f64) -> f64 {
+    // π times the view factor of a rectangle with one corner above the point; odd in both sides.
+    let corner = |a: f64, b: f64| {
+        let (p, q) = (a / a.hypot(height), b / b.hypot(height));
+        0.5 * (p * (b / a.hypot(height)).atan() + q * (a / b.hypot(height)).atan())
+    };
+    let (left, right, back, front) = (-half - x, half - x, -half - z, half - z);
+    corner(right, front) - corner(left, front) - corner(right, back) + corner(left, back)
+}
+
 /// A wide diffuse plane at height 0 seen from above, lit by a ball of radiance 1 and radius `radius` whose centre
 /// stands `height` (at least `radius`) above the point (−[`BALL_OFFSET`], 0, 0), outside of the image. Irradiance:
 /// [`ball_irradiance`].
@@ -106,6 +119,21 @@ mod tests {
     #[test]
     fn panel_irradiance_equals_the_integral_over_the_panel() {
         let (half, height, n) = (0.7, 1.3, 400);
+        for (x, z) in [(0.0, 0.0), (0.4, -0.3), (2.0, 0.5), (-0.7, 0.7)] {
+            let step = 2.0 * half / f64::from(n);
+            let mut sum = 0.0;
+            for i in 0..n * n {
+                let at = |k: i32| (f64::from(k) + 0.5) * step - half;
+                let (a, b) = (at(i % n) - x, at(i / n) - z);
+                sum += (height / (a * a + b * b + height * height)).powi(2) * step * step;
+            }
+            let found = panel_irradiance_at(half, height, x, z);
+            assert!((found / sum - 1.0).abs() < 1e-5, "{x} {z}: {found}, {sum}");
+        }
+        assert!(
+            (panel_irradiance_at(half, height, 0.0, 0.0) / panel_irradiance(half, height) - 1.0).abs()
+                < 1e-12
+        );
         let step = 2.0 * half / f64::from(n);
         let mut sum = 0.0;
         for i in 0..n {

@@ -47,6 +47,8 @@ fn models_declare_what_the_contents_show() {
     assert_eq!(scene("teapot").models(), meeting);
     assert_eq!(scene("spin").models(), Models { motion_blur: true, ..meeting });
     assert_eq!(scene("bathroom").models(), Models { specular: true, ..meeting });
+    let booth = Models { specular: true, ..meeting };
+    assert_eq!(scene("shower").models(), booth);
     let quads = Models { depth_of_field: true, textures: true, sky: true, ..none };
     assert_eq!(scene("two-quads").models(), quads);
     // Finite lamps only: a medium fills a closed scene, and light from infinitely far away could not get in.
@@ -67,6 +69,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("teapot", 30_000..60_000),
         ("nave", 20_000..120_000),
         ("bathroom", 10_000..60_000),
+        ("shower", 10_000..60_000),
         ("rings", 50_000..150_000),
         ("fog", 60_000..200_000),
         ("spin", 5_000..60_000),
