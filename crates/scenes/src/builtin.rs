@@ -8,5 +8,6 @@ mod garden;
 mod kitchen;
 pub mod outdoor;
 pub mod rings;
+pub mod shower;
 pub mod toaster;
 pub mod two_quads;

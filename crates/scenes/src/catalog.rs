@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use crate::Scene;
 use crate::analytic;
-use crate::builtin::{bathroom, conference, cornell, outdoor, rings, toaster, two_quads};
+use crate::builtin::{bathroom, conference, cornell, outdoor, rings, shower, toaster, two_quads};
 
 /// A scene that can be built by name.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +50,11 @@ const SCENES: &[SceneEntry] = &[
         id: bathroom::ID,
         about: "bathroom with mirrors, lit by way of its ceiling: stands in for the bathroom of moon2013flash",
         build: bathroom::bathroom,
+    },
+    SceneEntry {
+        id: shower::ID,
+        about: "shower booth with a glass pane, a glossy can and caustics: stands in for the shower booth of moon2013flash",
+        build: shower::shower,
     },
     SceneEntry {
         id: two_quads::ID,
