@@ -44,6 +44,7 @@ fn models_declare_what_the_contents_show() {
     let meeting = Models { textures: true, glossy: true, area_lights: true, ..none };
     assert_eq!(scene("conference").models(), meeting);
     assert_eq!(scene("bathroom").models(), Models { specular: true, ..meeting });
+    assert_eq!(scene("shower").models(), Models { specular: true, ..meeting });
     let quads = Models { depth_of_field: true, textures: true, sky: true, ..none };
     assert_eq!(scene("two-quads").models(), quads);
     for id in ["furnace", "direct", "gradient"] {
@@ -60,6 +61,7 @@ fn triangle_counts_stay_in_their_budgets() {
         ("outdoor", 60_000..150_000),
         ("conference", 8_000..30_000),
         ("bathroom", 10_000..60_000),
+        ("shower", 10_000..60_000),
         ("rings", 50_000..150_000),
     ] {
         let count = triangles(&scene(id));
@@ -134,13 +136,16 @@ fn shading_normals_never_oppose_the_triangle() {
 #[test]
 fn glass_is_closed_and_faces_outwards() {
     let glass = |m: &Material| matches!(m.scattering, Scattering::Glass { .. });
+    let mut checked = 0;
     for scene in scenes() {
         for mesh in scene.meshes.iter().filter(|mesh| glass(&scene.materials[mesh.material])) {
             let name = &scene.materials[mesh.material].name;
             assert!(is_closed(mesh), "{}: `{name}` has a hole", scene.id);
             assert!(volume(mesh) > 0.0, "{}: `{name}` is inside out", scene.id);
+            checked += 1;
         }
     }
+    assert!(checked >= 2, "the shower has a pane and a flask");
 }
 
 #[test]

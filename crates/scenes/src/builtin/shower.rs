@@ -98,7 +98,7 @@ fn pane(scene: &mut Scene, glass: MaterialIndex, chrome: MaterialIndex) {
     scene.add_mesh(cuboid(low, high), glass);
     let grip = |z: f32| {
         let at = |y: f32, z: f32| Vec3::new(low.x + 0.07, y, z);
-        tube(&[at(0.62, z), at(0.86, z)], &[0.009], 24)
+        tube(&[at(0.8, z), at(0.97, z)], &[0.009], 24)
     };
     let bolt = |y: f32| {
         let at = |z: f32| Vec3::new(low.x + 0.07, y, z);
@@ -110,7 +110,7 @@ fn pane(scene: &mut Scene, glass: MaterialIndex, chrome: MaterialIndex) {
     // Its free edge is framed, half a millimetre off the glass.
     let frame = cuboid(Vec3::new(low.x - 0.0125, 0.0, -0.208), Vec3::new(low.x - 0.0005, high.y, -0.192));
     let bars = [frame, grip(high.z + 0.035), grip(low.z - 0.035)];
-    scene.add_mesh(Mesh::joined(bars.into_iter().chain(bolt(0.64)).chain(bolt(0.84))), chrome);
+    scene.add_mesh(Mesh::joined(bars.into_iter().chain(bolt(0.83)).chain(bolt(0.94))), chrome);
 }
 
 /// Mixer on the back wall, rail with the shower head, and the hose between them.
@@ -211,9 +211,9 @@ fn on_the_ledge(scene: &mut Scene, glass: MaterialIndex, chrome: MaterialIndex) 
     let (radius, height) = (0.085, 0.032);
     let (inner, outer) = (radius - 0.0015, radius + 0.0015);
     let band = [[inner, 0.0], [outer, 0.0], [outer, height], [inner, height], [inner, 0.0]].map(Vec2::from);
-    scene.add_mesh(lathe(&band, 200).translated(Vec3::new(-0.13, LEDGE, -0.53)), chrome);
+    scene.add_mesh(lathe(&band, 200).translated(Vec3::new(-0.14, LEDGE, -0.52)), chrome);
 
-    scene.add_sphere(Vec3::new(0.08, LEDGE + 0.0601, -0.64), 0.06, glass);
+    scene.add_sphere(Vec3::new(0.03, LEDGE + 0.0601, -0.56), 0.06, glass);
     let flask = [
         [0.0, 0.0],
         [0.035, 0.0],
