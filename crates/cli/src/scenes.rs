@@ -6,7 +6,9 @@ use std::time::Instant;
 
 use noisefloor_frame::Image;
 use noisefloor_metrics::tone_map;
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render, render_reference};
+use noisefloor_render::{
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderRequest, Silent, render, render_reference,
+};
 use noisefloor_report::{SheetEntry, contact_sheet};
 use serde_json::{Value, json};
 
@@ -30,7 +32,7 @@ pub fn run(args: &Scenes) -> anyhow::Result<()> {
         if args.json {
             list.push(json!({
                 "id": entry.id, "title": scene.title, "about": entry.about, "models": models,
-                "primitives": scene.primitives(), "records": records,
+                "primitives": scene.primitives(), "records": records, "photon_mapped": entry.photon_mapped,
             }));
             continue;
         }
@@ -42,6 +44,9 @@ pub fn run(args: &Scenes) -> anyhow::Result<()> {
             .map(|(name, _)| name.as_str())
             .collect();
         println!("{}\n  {}\n  models: {}", entry.id, entry.about, on.join(", ").replace('_', " "));
+        if entry.photon_mapped {
+            println!("  photon mapped in its source: --integrator photon-mapping");
+        }
         println!("  records: colour, {}\n  primitives: {}\n", records.join(", "), scene.primitives());
     }
     if args.json {
@@ -59,8 +64,15 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
     for entry in scenes {
         progress.set_message(entry.id);
         let prepared = Prepared::new(&(entry.build)())?;
+        let maps = entry.photon_mapped.then(|| PhotonMaps::new(&prepared, &PhotonSettings::default(), 0));
+        let maps = maps.transpose()?;
         let noisy = RenderRequest {
             record: Record::color_only(),
+            photons: maps.as_ref(),
+            integrator: match maps {
+                Some(_) => Integrator::PhotonMapping,
+                None => Integrator::PathTracing,
+            },
             ..RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp)
         };
         let start = Instant::now();
@@ -71,7 +83,13 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
         let reference = render_reference(&reference, 8, &Silent)?;
         let shown = |image: &Image| tone_map(image, 0.0);
         entries.push(SheetEntry {
-            title: format!("{}: {} spp, reference {} spp", entry.id, args.spp, args.reference_spp),
+            title: format!(
+                "{}: {} spp, reference {} spp{}",
+                entry.id,
+                args.spp,
+                args.reference_spp,
+                if entry.photon_mapped { ", photon mapped" } else { "" }
+            ),
             images: [shown(&frame.color.mean), shown(reference.mean())],
         });
         let rate = frame.pixels() as f64 * f64::from(args.spp) / seconds.max(1e-9) / 1e6;
