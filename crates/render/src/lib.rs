@@ -1,4 +1,4 @@
-//! A deterministic, multi-threaded path tracer that records frames with their statistics.
+//! A deterministic, multi-threaded path tracer and photon mapper that records frames with their statistics.
 //!
 //! [`Prepared::new`] checks a scene and builds its acceleration structure once; [`render`] and [`render_reference`] make
 //! frames and references from it. Only what a [`Record`] asks for is gathered, and only what the scene can give.

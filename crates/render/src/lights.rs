@@ -225,7 +225,7 @@ impl Lights {
 
     /// Chances of the sources, in proportion to the light that each sends into a sphere.
     pub fn towards(&self, target: Ball) -> Chances {
-        let weights: Vec<f64> = self.lights.iter().map(|light| f64::from(light.into_ball(target))).collect();
+        let weights: Vec<f64> = self.lights.iter().map(|light| f64::from(light.flux_to(target))).collect();
         let total: f64 = weights.iter().sum();
         let share = |w: f64| if total > 0.0 { (w / total) as f32 } else { 0.0 };
         let mut sum = 0.0;
@@ -366,7 +366,7 @@ fn even_direction(u: f32, v: f32) -> Vec3A {
 
 impl Light {
     /// About the luminous flux into a ball; positive wherever some of it could get there.
-    fn into_ball(&self, ball: Ball) -> f32 {
+    fn flux_to(&self, ball: Ball) -> f32 {
         let share = |at: Vec3A| {
             let squared = (ball.center - at).length_squared();
             (ball.radius * ball.radius / squared.max(f32::MIN_POSITIVE)).min(1.0)

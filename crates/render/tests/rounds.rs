@@ -3,8 +3,10 @@
 mod common;
 
 use common::cornell;
+use glam::Vec3;
 use noisefloor_frame::{Counts, Estimate, FeatureId, Frame, Image, Sampling};
-use noisefloor_render::{Prepared, Record, RenderRequest, Rounds, Silent, allocate, render};
+use noisefloor_render::{Prepared, Quantity, Record, RenderRequest, Rounds, Silent, allocate, render};
+use noisefloor_scenes::Body;
 
 const SIZE: (usize, usize) = (20, 14);
 
@@ -30,11 +32,23 @@ fn bits(estimate: &Estimate, at: usize) -> Vec<u32> {
 
 #[test]
 fn rounds_give_each_pixel_the_bits_of_one_run_with_its_samples() {
-    let scene = Prepared::new(&cornell()).unwrap();
-    for (sampling, record) in
-        [(Sampling::Independent, Record::Available), (Sampling::LowDiscrepancy, Record::color_only())]
-    {
-        let first = RenderRequest { sampling, record, ..request(&scene, 3) };
+    let still = Prepared::new(&cornell()).unwrap();
+    let mut moving = cornell();
+    moving.add_body(0.8, Body { meshes: (6..12).collect(), translation: Vec3::X * 0.2, spin: None });
+    let moving = Prepared::new(&moving).unwrap();
+    // Each kind of record has code of its own.
+    let features = [Quantity::Albedo, Quantity::Visibility];
+    let both = Record::exactly([Quantity::Depth, Quantity::Flash]);
+    for (scene, sampling, record) in [
+        (&still, Sampling::Independent, Record::Available),
+        (&still, Sampling::LowDiscrepancy, Record::color_only()),
+        (&still, Sampling::Independent, Record::exactly(features)),
+        (&still, Sampling::LowDiscrepancy, Record::exactly([Quantity::Flash])),
+        (&still, Sampling::Independent, both),
+        (&moving, Sampling::LowDiscrepancy, Record::Available),
+        (&moving, Sampling::Independent, Record::color_only()),
+    ] {
+        let first = RenderRequest { sampling, record, ..request(scene, 3) };
         let mut rounds = Rounds::start(&first, &Silent).unwrap();
         let extra: Vec<u32> = (0..SIZE.0 * SIZE.1).map(|p| [0, 5, 14, 30][p % 4]).collect();
         rounds.add(&extra, &Silent).unwrap();
