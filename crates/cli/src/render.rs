@@ -25,7 +25,7 @@ use crate::shot::{is_gltf, shot};
 pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
     use_threads(args.threads)?;
     let base = find_scene(args)?;
-    let first = shot(&args.shot, Maps::Fixed);
+    let first = shot(&args.shot, Maps::Fixed)?;
     for frame in first.frame..first.frame.saturating_add(args.frames) {
         let output = if args.frames == 1 { args.output.clone() } else { numbered(&args.output, frame) };
         one(context, args, &base, Shot { frame, ..first }, &output)?;
@@ -36,7 +36,8 @@ pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
 /// `STEM.0007.exr` for frame 7.
 fn numbered(path: &Path, frame: u32) -> PathBuf {
     let extension = path.extension().unwrap_or_default().to_string_lossy();
-    path.with_extension(format!("{frame:04}.{extension}"))
+    let end = if extension.is_empty() { String::new() } else { format!(".{extension}") };
+    path.with_extension(format!("{frame:04}{end}"))
 }
 
 /// Renders and writes one frame.
@@ -55,7 +56,9 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path
         Some(names) => named(names, &can)?,
     };
     let prepared = Prepared::new(&scene)?;
-    let maps = settings.map(|s| PhotonMaps::new(&prepared, &s, args.map_seed)).transpose()?;
+    let maps = settings
+        .map(|s| PhotonMaps::new(&prepared, &s, sequence_seed(args.map_seed, shot.frame)))
+        .transpose()?;
     if let Some(maps) = maps.as_ref().filter(|_| !args.quiet) {
         let [caustic, global] = maps.len();
         println!("photon maps: {caustic} caustic and {global} global photons in {:.1} s", maps.seconds());

@@ -64,7 +64,7 @@ fn find_study(args: &Run) -> anyhow::Result<Study> {
     let name = args.study.as_deref().unwrap_or("quick");
     let path = Path::new(name);
     let maps = if args.maps == Maps::Fresh.name() { Maps::Fresh } else { Maps::Fixed };
-    let shot = shot(&args.shot, maps);
+    let shot = shot(&args.shot, maps)?;
     let of_scene = is_gltf(path) && path.is_file()
         || noisefloor_scenes::find(name).is_ok() && Study::builtin(name).is_err() && !path.exists();
     if shot != Shot::default() && !of_scene {

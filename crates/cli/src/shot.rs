@@ -2,16 +2,21 @@
 
 use std::path::Path;
 
+use anyhow::bail;
 use noisefloor_harness::{Maps, Shot};
 use noisefloor_render::{Integrator, PhotonSettings};
 
 use crate::args;
 
 /// From the command line.
-pub fn shot(args: &args::Shot, maps: Maps) -> Shot {
+pub fn shot(args: &args::Shot, maps: Maps) -> anyhow::Result<Shot> {
     let integrator = Integrator::from_name(&args.integrator).unwrap_or_default();
     let usual = PhotonSettings::default();
     let wanted = args.photons.is_some() || integrator == Integrator::PhotonMapping;
+    let changed = args.photon_radius != 1.0 && args.photon_radius != 0.0;
+    if !wanted && (changed || maps == Maps::Fresh) {
+        bail!("--photon-radius and --maps need photon maps: add --integrator photon-mapping or --photons");
+    }
     let paths = args.photons.unwrap_or(usual.paths);
     let most = 1 << 26;
     let photons = PhotonSettings {
@@ -19,13 +24,13 @@ pub fn shot(args: &args::Shot, maps: Maps) -> Shot {
         caustic_paths: args.caustic_photons.unwrap_or(paths.saturating_mul(5).min(most)),
         ..usual
     };
-    Shot {
+    Ok(Shot {
         frame: args.frame,
         orbit_degrees: args.orbit,
         integrator,
         photons: wanted.then(|| photons.scaled(args.photon_radius)),
         maps,
-    }
+    })
 }
 
 /// The same as a person would type it again.

@@ -5,6 +5,7 @@ mod ratio;
 
 use noisefloor_denoiser::Claim;
 use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling, Variance};
+use noisefloor_render::Integrator;
 use noisefloor_stats::{
     self as stats, BoundTally, CoverageTally, Groups, Level, Observed, ShapeError, Truth,
 };
@@ -42,10 +43,17 @@ pub(crate) fn void(sampling: Sampling) -> Option<&'static str> {
 /// Key in a frame's provenance: which photon maps it was rendered with.
 pub(crate) const PHOTON_MAPS: &str = "photon_maps";
 
-/// Which photon maps carried the light of a frame, if any did.
+/// Which photon maps carried the light of a frame, if any did. A photon-mapped frame that does not say it, because it was
+/// rendered alone and imported, counts as one whose maps the truth does not share.
 pub(crate) fn photon_maps(frame: &Frame) -> Option<Maps> {
-    let name = frame.provenance.extra.get(PHOTON_MAPS)?;
-    [Maps::Fixed, Maps::Fresh].into_iter().find(|maps| maps.name() == name)
+    let told = frame.provenance.extra.get(PHOTON_MAPS);
+    if let Some(maps) =
+        [Maps::Fixed, Maps::Fresh].into_iter().find(|maps| told.is_some_and(|t| t == maps.name()))
+    {
+        return Some(maps);
+    }
+    let integrator = frame.provenance.integrator.as_deref().unwrap_or_default();
+    integrator.starts_with(Integrator::PhotonMapping.name()).then_some(Maps::Fresh)
 }
 
 impl<'a> Measure<'a> {

@@ -18,8 +18,8 @@ use crate::study::{SceneSource, SceneSpec, Study};
 
 pub(crate) use classes::PixelClasses;
 use folder::Imported;
-pub(crate) use rendered::PHOTON_SETTING;
 use rendered::Rendered;
+pub(crate) use rendered::fresh_maps;
 
 /// A noisy frame that the plan asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +58,7 @@ enum Source {
 }
 
 impl Scene {
-    /// Opens a scene: builds it, or looks at the files of its folder. Renders and decodes nothing.
+    /// Opens a scene: builds it, or looks at the files of its folder. Renders nothing but tiny probes and decodes nothing.
     pub(crate) fn open(
         study: &Study,
         spec: &SceneSpec,

@@ -10,7 +10,8 @@ pub enum FeatureHit {
     /// The first hit that is not perfectly specular: mirrors and smooth glass are followed. Albedo is multiplied by the
     /// tint of the mirrors on the way, depth is the length of the way, the normal is that of the surface itself, and
     /// direct light is the emission seen there plus light scattered once there. Background behind specular surfaces
-    /// counts as background; where the path ends before, the last specular hit counts.
+    /// counts as background; where the path ends before, the last specular hit counts. Motion and caustic density are
+    /// those of the point itself, as if it were seen directly. Not for scenes with a medium.
     ThroughSpecular,
 }
 

@@ -139,7 +139,7 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: 
         {
             // Finite: an infinite thickness of a colour without extinction would not be a number.
             let limit = hit.map_or(f32::MAX, |hit| hit.t);
-            match medium.fly(limit, sampler.group(2 * edge - 1)[3]) {
+            match medium.fly(limit, throughput, sampler.group(2 * edge - 1)[3]) {
                 Flight::Passed(weight) => throughput *= weight,
                 Flight::Scattered(t, weight) => {
                     // Features and the eye light belong to the surface ahead, whatever floats before it.
@@ -154,6 +154,7 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: 
                             way += hit.t;
                             describe(&mut out, scene, &hit, &at, &event, tint, way);
                             rarities(&mut out, scene, view, &hit, &at, traversal);
+                            out.brdf = tint * brdf(&event, &at, -ray.direction, sampler.group(2 * edge));
                         }
                         if FLASH
                             && reuse == Reuse::Following
@@ -237,6 +238,7 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: 
             describe(&mut out, scene, &hit, &at, &event, tint, way);
             if EXTRAS {
                 rarities(&mut out, scene, view, &hit, &at, traversal);
+                out.brdf = tint * brdf(&event, &at, -ray.direction, sampler.group(2 * edge));
             }
         }
         if FEATURES && edge == feature_edge + 1 {
@@ -258,7 +260,7 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: 
                     break;
                 }
                 let u = sampler.group(2 * edge);
-                let (direction, scale) = specular.follow(&at, to_viewer, u[2]);
+                let (direction, scale, _) = specular.follow(&at, to_viewer, u[2]);
                 throughput *= specular.tint() * scale;
                 if FEATURES && view.follow && edge == feature_edge {
                     tint *= specular.tint();
@@ -326,9 +328,6 @@ pub fn trace<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: 
         }
         let v = sampler.group(2 * edge);
         let scattered = lobe.sample(&at, to_viewer, v[0], v[1]);
-        if EXTRAS && FEATURES && edge == feature_edge {
-            out.brdf = scattered.map_or(Vec3A::ZERO, |s| tint * s.weight);
-        }
         let Some(scattered) = scattered else { break };
         throughput *= scattered.weight;
         if !survives(&mut throughput, squared_index, edge, v[3]) {
@@ -383,8 +382,6 @@ fn rarities(
     at: &Interaction,
     traversal: &Traversal,
 ) {
-    // Where the path ends before a direction is sampled, this stands for the mean of what would be.
-    out.brdf = out.albedo;
     if let Some(frames) = &view.frames {
         let [start, end] = scene.over_a_frame(hit, at.point, traversal);
         let shift = |from: [f32; 2], to: [f32; 2]| [to[0] - from[0], to[1] - from[1]];
@@ -395,6 +392,16 @@ fn rarities(
     }
     if let Some(photons) = view.photons {
         out.caustics = photons.caustic(at, view.pixel * out.depth, DEEPEST).1;
+    }
+}
+
+/// BRDF times cosine over density for the direction that the path takes with these random numbers, or would take if it
+/// went on.
+#[inline(never)]
+fn brdf(event: &Event, at: &Interaction, to_viewer: Vec3A, u: [f32; 4]) -> Vec3A {
+    match event {
+        Event::Specular(specular) => specular.tint(),
+        Event::Lobe(lobe) => lobe.sample(at, to_viewer, u[0], u[1]).map_or(Vec3A::ZERO, |s| s.weight),
     }
 }
 
@@ -604,7 +611,7 @@ mod tests {
             let scene = scene(kind);
             // Far enough for a cone, close by, and around the lamp.
             for (center, radius) in
-                [([0.2, -3.0, 0.5], 0.4f32), ([0.1, 0.2, 0.0], 0.5), ([0.0, 1.0, 0.0], 3.0)]
+                [([0.2, -3.0, 0.5], 0.4f32), ([0.1, 0.2, 0.0], 0.7), ([0.0, 1.0, 0.0], 3.0)]
             {
                 // Distant light starts outside the scene, and so outside every ball in it.
                 if radius > scene.radius && !matches!(kind, "triangle" | "sphere") {

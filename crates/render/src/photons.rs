@@ -27,11 +27,11 @@ pub struct PhotonSettings {
     pub paths: u32,
     /// Light paths for the caustic map, in 1..=2^26.
     pub caustic_paths: u32,
-    /// Radius of a look at the global map as a fraction of the scene's radius, in (0, 1].
+    /// Radius of a look at the global map as a fraction of the scene's radius, in [1e-6, 1].
     pub radius: f32,
-    /// Radius of a look at the caustic map in pixels, as wide as they are where they meet the surface; in (0, 1000].
+    /// Radius of a look at the caustic map in pixels, as wide as they are where they meet the surface; in [1e-6, 1000].
     pub caustic_pixels: f32,
-    /// The largest radius of a look at the caustic map as a fraction of the scene's radius, in (0, 1].
+    /// The largest radius of a look at the caustic map as a fraction of the scene's radius, in [1e-6, 1].
     pub caustic_radius: f32,
 }
 
@@ -67,8 +67,8 @@ impl PhotonSettings {
         let radii = [("radius", self.radius, 1.0), ("caustic-radius", self.caustic_radius, 1.0)];
         let radii = radii.into_iter().chain([("caustic-pixels", self.caustic_pixels, 1000.0)]);
         for (parameter, value, most) in radii {
-            if !(value > 0.0 && value <= most) {
-                return Err(wrong(parameter, value.to_string(), "above 0 and at most 1, or 1000 pixels"));
+            if !(1e-6..=most).contains(&value) {
+                return Err(wrong(parameter, value.to_string(), &format!("in 1e-6..={most}")));
             }
         }
         Ok(())
@@ -116,6 +116,10 @@ impl Map {
     fn density(&self, at: &Interaction, radius: f32, edges: u32) -> (Vec3A, f32) {
         let Some(tree) = &self.tree else { return (Vec3A::ZERO, 0.0) };
         let squared = radius * radius;
+        // Scenes so small that areas underflow have no densities.
+        if squared < f32::MIN_POSITIVE {
+            return (Vec3A::ZERO, 0.0);
+        }
         let (mut flux, mut count) = ([0.0f64; 3], 0.0f64);
         tree.query(&at.point.to_array()).within::<SquaredEuclidean<f32>>(squared).unsorted().visit(|found| {
             let photon = &self.photons[found.item as usize];
@@ -131,7 +135,7 @@ impl Map {
                 count += weight;
             }
         });
-        let scale = 2.0 / (std::f64::consts::PI * f64::from(squared)); // radius > 0: checked
+        let scale = 2.0 / (std::f64::consts::PI * f64::from(squared)); // positive: see above
         (Vec3A::from_array(flux.map(|f| (f * scale) as f32)), (count * scale) as f32)
     }
 }
@@ -147,6 +151,7 @@ const MOST_CORRECTION: f32 = 8.0;
 #[derive(Debug)]
 pub struct PhotonMaps {
     scene: String,
+    stamp: u64,
     settings: PhotonSettings,
     seed: u64,
     caustic: Map,
@@ -187,6 +192,7 @@ impl PhotonMaps {
         let [caustic, global] = [caustic, global].map(Map::new);
         Ok(Self {
             scene: scene.id().to_owned(),
+            stamp: scene.stamp,
             settings: *settings,
             seed,
             caustic: caustic?,
@@ -229,6 +235,11 @@ impl PhotonMaps {
     /// Id of the scene.
     pub(crate) fn scene(&self) -> &str {
         &self.scene
+    }
+
+    /// Whether they were made of this preparation of the scene.
+    pub(crate) fn are_of(&self, scene: &Prepared) -> bool {
+        self.stamp == scene.stamp
     }
 
     /// Irradiance by caustics at a point where a pixel is `footprint` wide, from light with at most `edges` edges, and the
@@ -304,17 +315,20 @@ fn follow(
             return;
         }
         let u = sampler.group(edge + 1);
-        let (direction, weight) = match event {
-            // Flux, unlike radiance, is not squeezed by refraction.
-            Event::Specular(specular) => (specular.follow(&at, arriving, u[2]).0, specular.tint()),
+        let (direction, weight, normal) = match event {
+            Event::Specular(specular) => {
+                // Flux, unlike radiance, is not squeezed by refraction.
+                let (direction, _, normal) = specular.follow(&at, arriving, u[2]);
+                (direction, specular.tint(), normal)
+            }
             Event::Lobe(lobe) => match lobe.sample(&at, arriving, u[0], u[1]) {
-                Some(scattered) => (scattered.direction, scattered.weight),
+                Some(scattered) => (scattered.direction, scattered.weight, at.normal),
                 None => return,
             },
         };
         // Light and importance bend differently at interpolated normals (Veach 1997, Sec. 5.3); 1 where they are flat.
-        let leaving = direction.dot(at.normal).abs().max(1e-6);
-        let bent = shading * direction.dot(at.geometric).abs() / (facing.max(1e-6) * leaving);
+        let leaving = direction.dot(normal).abs().max(1e-6);
+        let bent = arriving.dot(normal) * direction.dot(at.geometric).abs() / (facing.max(1e-6) * leaving);
         let weight = weight * bent.min(MOST_CORRECTION);
         // Roulette by the loss at this surface keeps the photons' flux alike.
         let chance = weight.max_element().min(1.0);

@@ -1,3 +1,5 @@
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::{Vec2, Vec3, Vec3A};
 use noisefloor_scenes::{
     Body, CameraMove, CameraSpec, Color, EnvironmentMap, Material, Models, Scattering, Scene, Sky,
@@ -16,6 +18,8 @@ use crate::{Quantity, RenderError, available};
 #[derive(Debug, Clone)]
 pub struct Prepared {
     pub(crate) id: String,
+    /// Tells it from every other preparation; clones share it.
+    pub(crate) stamp: u64,
     pub(crate) camera: CameraSpec,
     pub(crate) bvh: Bvh,
     pub(crate) geometry: Vec<Geometry>,
@@ -30,7 +34,7 @@ pub struct Prepared {
     pub(crate) shutter: f32,
     /// How the camera moves from frame to frame.
     pub(crate) camera_move: Option<CameraMove>,
-    /// Sphere around everything.
+    /// Centre of a sphere around everything that stands still, and around moving bodies at the ends of the first frame.
     pub(crate) center: Vec3A,
     /// Radius of the sphere, positive.
     pub(crate) radius: f32,
@@ -42,6 +46,8 @@ pub struct Prepared {
     available: Vec<Quantity>,
     dropped: usize,
 }
+
+static STAMPS: AtomicU64 = AtomicU64::new(0);
 
 /// Fraction of the scene's radius at which the eye light stops to grow.
 const LEAST_EYE_DISTANCE: f32 = 1e-2;
@@ -93,6 +99,7 @@ impl Prepared {
         let lights = parts.lights.finish(sun, scene.sky.as_ref(), radius);
         Ok(Self {
             id: scene.id.to_string(),
+            stamp: STAMPS.fetch_add(1, Ordering::Relaxed),
             camera: scene.camera,
             bvh: Bvh::new(&parts.primitives),
             geometry: parts.geometry,

@@ -92,6 +92,11 @@ impl<'a> RenderRequest<'a> {
         if self.sampling == Sampling::LowDiscrepancy && end.div_ceil(2) > LONGEST_SEQUENCE {
             return range("spp", end.to_string(), "at most 131072 with low-discrepancy sampling");
         }
+        if self.feature_hit == FeatureHit::ThroughSpecular && self.scene.medium.is_some() {
+            let allowed =
+                "`first` in a scene with a medium, where a path may never reach what a mirror shows";
+            return range("feature_hit", self.feature_hit.name().into(), allowed);
+        }
         match self.photons {
             None if self.integrator == Integrator::PhotonMapping => {
                 return range("photons", "absent".into(), "photon maps, for photon mapping");
@@ -99,6 +104,13 @@ impl<'a> RenderRequest<'a> {
             Some(maps) if maps.scene() != self.scene.id() => {
                 let expected = format!("of scene `{}`", self.scene.id());
                 return range("photons", format!("of scene `{}`", maps.scene()), &expected);
+            }
+            Some(maps) if !maps.are_of(self.scene) => {
+                return range(
+                    "photons",
+                    "of another preparation".into(),
+                    "made of the prepared scene that is rendered",
+                );
             }
             _ => {}
         }

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Flash, Frame};
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor_render::{FeatureHit, Prepared, Quantity, Record, RenderRequest, Silent, render};
 use noisefloor_scenes::{Medium, Scattering, Scene};
 
 fn fog(absorption: f32, scattering: f32, mean_cosine: f32) -> Option<Medium> {
@@ -137,6 +137,45 @@ fn a_glowing_box_looks_the_same_through_a_medium_that_only_scatters() {
         scene.medium = fog(0.0, 1.5, g);
         assert_radiance(&radiance(&scene, 200, 512), 1.0, 0.01);
     }
+}
+
+#[test]
+fn a_coloured_medium_stays_calm_over_many_scatterings() {
+    let mut scene = empty(camera(Vec3::new(0.2, 0.1, 0.0), Vec3::new(1.0, 0.3, 0.5), 60.0));
+    let wall = add_material(&mut scene, diffuse(0.0), 1.0);
+    cuboid(&mut scene, Vec3::splat(-1.0), Vec3::new(1.0, 1.5, 2.0), true, wall);
+    scene.medium =
+        Some(Medium { absorption: Vec3::ZERO, scattering: Vec3::new(0.3, 1.0, 3.0), mean_cosine: 0.0 });
+    // With a choice of the colour that forgets the throughput the spread of a sample is in the hundreds.
+    assert_radiance(&radiance(&scene, 300, 512), 1.0, 0.01);
+}
+
+#[test]
+fn the_mean_brdf_sample_is_that_of_the_surface_behind_the_medium() {
+    let mut scene = empty(camera(Vec3::new(0.0, 1.0, 3.9), Vec3::new(0.0, 1.0, 0.0), 1.0));
+    let metal = add_material(&mut scene, conductor(0.9, 0.9), 0.0);
+    let light = add_material(&mut scene, diffuse(0.0), 1.0);
+    quad(&mut scene, Vec3::new(-1.0, 0.0, 0.0), Vec3::X * 2.0, Vec3::Y * 2.0, metal);
+    quad(&mut scene, Vec3::new(-1.0, 4.0, 0.0), Vec3::X * 2.0, Vec3::Z * 2.0, light);
+    let of = |medium| {
+        let prepared = Prepared::new(&Scene { medium, ..scene.clone() }).unwrap();
+        let record = Record::exactly([Quantity::Brdf]);
+        let frame =
+            render(&RenderRequest { record, ..RenderRequest::new(&prepared, 2, 2, 64) }, &Silent).unwrap();
+        frame.features[&FeatureId::Brdf].mean.clone()
+    };
+    // The same random numbers, whatever floats before the surface.
+    assert!(of(None) == of(fog(0.1, 2.0, 0.3)));
+}
+
+#[test]
+fn features_behind_mirrors_are_refused_in_a_medium() {
+    let prepared = Prepared::new(&Scene { medium: fog(0.1, 0.2, 0.0), ..cornell() }).unwrap();
+    let feature_hit = FeatureHit::ThroughSpecular;
+    let request = RenderRequest { feature_hit, ..RenderRequest::new(&prepared, 2, 2, 2) };
+    assert!(
+        render(&request, &Silent).unwrap_err().to_string().starts_with("feature_hit is through-specular")
+    );
 }
 
 #[test]

@@ -12,7 +12,7 @@ use noisefloor_render::{
 use noisefloor_scenes::{Scattering, Scene};
 use noisefloor_stats::{holm_adjusted, t_two_sided_p};
 
-const DEPTH: u32 = 7;
+const DEPTH: u32 = 4;
 const WIDTH: usize = 16;
 const HEIGHT: usize = 12;
 const BLOCK: usize = 4;
@@ -185,7 +185,6 @@ fn caustic_density_is_there_where_something_bends_light() {
     let most = bright.data().iter().fold(0.0f32, |a, b| a.max(*b));
     // 60 000 paths from a lamp above: the ball turns a few hundredths of them onto about a tenth of a unit of area.
     assert!(most > 0.05 && most < 5.0, "{most}");
-    assert!(bright.data().iter().all(|v| *v >= 0.0));
 }
 
 #[test]
@@ -200,12 +199,17 @@ fn what_photon_maps_cannot_do_is_said() {
     let maps = PhotonMaps::new(&Prepared::new(&other).unwrap(), &few, 0).unwrap();
     let request = RenderRequest { photons: Some(&maps), ..request };
     assert!(message(render(&request, &Silent).unwrap_err()).contains("of scene `other`"));
+    // Equal in name only.
+    let again = Prepared::new(&other).unwrap();
+    let request = RenderRequest { scene: &again, ..request };
+    assert!(message(render(&request, &Silent).unwrap_err()).contains("another preparation"));
     for (bad, word) in [
         (PhotonSettings { paths: 0, ..few }, "paths"),
         (PhotonSettings { caustic_paths: 1 << 30, ..few }, "caustic-paths"),
         (PhotonSettings { radius: f32::NAN, ..few }, "radius"),
         (PhotonSettings { caustic_radius: 2.0, ..few }, "caustic-radius"),
         (PhotonSettings { caustic_pixels: 0.0, ..few }, "caustic-pixels"),
+        (few.scaled(1e-22), "radius"),
     ] {
         assert!(message(PhotonMaps::new(&prepared, &bad, 0).unwrap_err()).starts_with(word), "{word}");
     }

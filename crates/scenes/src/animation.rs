@@ -1,4 +1,4 @@
-use glam::{Affine3A, Mat3A, Quat, Vec3};
+use glam::{Affine3A, DMat3, DVec3, Quat, Vec3};
 
 use crate::{CameraSpec, MaterialIndex, Mesh, Scene};
 
@@ -67,14 +67,16 @@ impl Body {
     /// From frame 0 to a time in frames: a rotation and a translation.
     #[must_use]
     pub fn at(&self, frames: f32) -> Affine3A {
-        let (center, turn) = match self.spin {
-            Some(spin) => {
-                (spin.center, Mat3A::from_axis_angle(spin.axis, (spin.degrees * frames).to_radians()))
-            }
-            None => (Vec3::ZERO, Mat3A::IDENTITY),
+        let way = self.translation.as_dvec3() * f64::from(frames);
+        let Some(spin) = self.spin else {
+            return Affine3A::from_translation(way.as_vec3());
         };
-        let translation = center + self.translation * frames - Vec3::from(turn * glam::Vec3A::from(center));
-        Affine3A { matrix3: turn, translation: translation.into() }
+        // In f64, with an axis of exactly unit length and an angle within a turn: rays rely on a pure rotation.
+        let angle = (f64::from(spin.degrees) * f64::from(frames)).rem_euclid(360.0).to_radians();
+        let turn = DMat3::from_axis_angle(spin.axis.as_dvec3().normalize_or(DVec3::Y), angle);
+        let center = spin.center.as_dvec3();
+        let translation = (center + way - turn * center).as_vec3a();
+        Affine3A { matrix3: turn.as_mat3().into(), translation }
     }
 
     /// The same movement from a later moment on.

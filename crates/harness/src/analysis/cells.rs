@@ -9,6 +9,7 @@ use crate::analysis::number::{LEVEL, mean, median, metric, told, value};
 use crate::analysis::series::{by_replicate, reference_se, series};
 use crate::context::{Row, SceneContext};
 use crate::record::Record;
+use crate::source::fresh_maps;
 use crate::summary::{CellSummary, Interval, Source};
 
 /// Averages over replicates, per scene, level and row.
@@ -34,7 +35,8 @@ pub(super) type Fits = BTreeMap<String, MonteCarloFit>;
 /// Fits the squared errors of the baseline, whose expectation is exactly c/n if samples are independent.
 pub(super) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
     let Some(baseline) = index.baseline() else { return Fits::new() };
-    if crate::measure::void(scene.sampling).is_some() {
+    // With new photon maps in each replicate the expectation is c/n and the error of the maps.
+    if crate::measure::void(scene.sampling).is_some() || fresh_maps(&scene.settings) {
         return Fits::new();
     }
     let squared = index.study.metrics.iter().filter(|id| crate::metric::order(id) == Some(2));

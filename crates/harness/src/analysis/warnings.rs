@@ -1,11 +1,10 @@
 use noisefloor_frame::Sampling;
 
-use crate::Maps;
 use crate::analysis::cells::monte_carlo;
 use crate::analysis::index::Index;
 use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio, times};
 use crate::context::SceneContext;
-use crate::source::PHOTON_SETTING;
+use crate::source::fresh_maps;
 use crate::summary::Summary;
 
 /// Standard errors by which a level may differ from plain Monte Carlo's c/n before it is told.
@@ -74,7 +73,7 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
             crate::measure::void(scene.sampling).unwrap_or("")
         ));
     }
-    let fresh = scene.settings.get(PHOTON_SETTING).is_some_and(|maps| maps.starts_with(Maps::Fresh.name()));
+    let fresh = fresh_maps(&scene.settings);
     if fresh {
         out.push(format!(
             "{id}: coverage and bounds are left out (photon maps are new in each replicate, and the variance between a frame's samples does \

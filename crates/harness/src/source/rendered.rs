@@ -39,8 +39,15 @@ pub(super) struct Rendered {
     shared: OnceLock<PhotonMaps>,
 }
 
-/// Name of the setting that says how photon maps are used.
-pub(crate) const PHOTON_SETTING: &str = "photon maps";
+/// Names of the settings that say how light is carried and how photon maps are used.
+const LIGHT_SETTING: &str = "light";
+const PHOTON_SETTING: &str = "photon maps";
+
+/// Whether frames with these settings were lit by photon maps that their reference does not share.
+pub(crate) fn fresh_maps(settings: &BTreeMap<String, String>) -> bool {
+    let says = |name: &str, start: &str| settings.get(name).is_some_and(|value| value.starts_with(start));
+    says(LIGHT_SETTING, Integrator::PhotonMapping.name()) && says(PHOTON_SETTING, Maps::Fresh.name())
+}
 
 /// The scene before its moment is chosen, what it is, what its file could not give, and what tells it from others.
 fn build(
@@ -81,6 +88,9 @@ pub(super) fn open(
     let can = |q: Quantity| prepared.available().contains(&q) || mapped(q);
     let record: BTreeMap<Quantity, Keep> =
         recorded.iter().filter(|(q, _)| can(**q)).map(|(q, k)| (*q, *k)).collect();
+    // Maps that nothing looks at are not made, and are no part of any key.
+    let used = shot.integrator == Integrator::PhotonMapping || record.contains_key(&Quantity::Caustics);
+    let shot = if used { shot } else { Shot { photons: None, maps: Maps::Fixed, ..shot } };
     // Frames of a sequence have random numbers of their own.
     let identity = if shot.frame == 0 { Value::from(name.as_str()) } else { json!([name, shot.frame]) };
     let map_seed = seed_of(&json!({"purpose": "photon maps", "scene": identity}));
@@ -146,11 +156,23 @@ pub(super) fn open(
         ("recorded", record.keys().map(|q| q.name()).collect::<Vec<_>>().join(", ")),
     ];
     if shot.frame > 0 || shot.orbit_degrees != 0.0 {
-        settings.push(("frame of the sequence", shot.frame.to_string()));
+        let orbit = if shot.orbit_degrees == 0.0 {
+            String::new()
+        } else {
+            format!(", the camera goes around by {}° per frame", shot.orbit_degrees)
+        };
+        settings.push(("frame of the sequence", format!("{}{orbit}", shot.frame)));
     }
     if let Some(photons) = shot.photons() {
-        settings.push(("light", shot.integrator.name().to_owned()));
-        let paths = format!("{} and {} light paths", photons.paths, photons.caustic_paths);
+        settings.push((LIGHT_SETTING, shot.integrator.name().to_owned()));
+        let paths = format!(
+            "{} light paths and radius {} of the scene's; for caustics {} light paths, {} pixels, at most {}",
+            photons.paths,
+            photons.radius,
+            photons.caustic_paths,
+            photons.caustic_pixels,
+            photons.caustic_radius
+        );
         let whose = match shot.maps {
             Maps::Fixed => "fixed: one pair for all frames and the reference",
             Maps::Fresh => "fresh: a new pair in each replicate, the reference is path traced",
@@ -264,6 +286,8 @@ impl Rendered {
             let request =
                 RenderRequest { photons: Some(maps), integrator: self.shot.integrator, ..request.clone() };
             let mut frame = rendered(&request, observer)?;
+            // What this frame would have cost alone.
+            frame.provenance.render_seconds = frame.provenance.render_seconds.map(|s| s + maps.seconds());
             if self.shot.integrator == Integrator::PhotonMapping {
                 let maps = self.shot.maps.name().to_owned();
                 frame.provenance.extra.insert(crate::measure::PHOTON_MAPS.into(), maps);

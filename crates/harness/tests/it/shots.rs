@@ -40,6 +40,12 @@ fn intervals_are_counted_with_fixed_maps_and_void_with_fresh_ones() {
     );
     let second = records(&place.out());
     assert!(second.iter().all(|r| r.photon_maps == Some(Maps::Fresh)));
+    assert!(fresh.cells.iter().all(|c| c.equal_error.is_empty()), "errors do not fall like c/n");
+    // Maps that only serve features, or nobody, void nothing.
+    let place = Place::new();
+    let keys = "id = \"cornell\"\nphotons = { paths = 3000 }\nmaps = \"fresh\"";
+    let traced = place.run(&study(&rendered(keys)), &Watch::default()).unwrap();
+    assert!(!traced.coverage.is_empty() && !traced.warnings.iter().any(|w| w.contains("photon maps")));
     // Path tracing says nothing of maps.
     let place = Place::new();
     place.run(&study(&rendered("id = \"cornell\"")), &Watch::default()).unwrap();

@@ -91,19 +91,19 @@ impl Specular {
         }
     }
 
-    /// The next direction, and the square of this side's index over that side's. Where an interpolated normal would
-    /// send light through the wrong side, the flat one is used.
+    /// The next direction, the square of this side's index over that side's, and the normal that was used. Where an
+    /// interpolated normal would send light through the wrong side, that is the flat one.
     #[inline(always)]
-    pub fn follow(&self, at: &Interaction, out: Vec3A, u: f32) -> (Vec3A, f32) {
+    pub fn follow(&self, at: &Interaction, out: Vec3A, u: f32) -> (Vec3A, f32, Vec3A) {
         let about = |normal: Vec3A| match *self {
             Self::Mirror(_) => (reflect(out, normal), 1.0, true),
             Self::Glass(ior) => dielectric::sample(ior, normal, at.front, out, u),
         };
         let (direction, scale, reflected) = about(at.normal);
         if (direction.dot(at.geometric) > 0.0) == reflected {
-            return (direction, scale);
+            return (direction, scale, at.normal);
         }
         let (direction, scale, _) = about(at.geometric);
-        (direction, scale)
+        (direction, scale, at.geometric)
     }
 }
