@@ -24,10 +24,11 @@ impl<const C: usize> Moments<C> {
     pub fn push(&mut self, sample: [f64; C]) {
         self.count += 1;
         let inverse = 1.0 / self.count as f64; // count ≥ 1 here
-        for ((x, mean), m2) in sample.into_iter().zip(&mut self.mean).zip(&mut self.m2) {
-            let delta = x - *mean;
-            *mean += delta * inverse;
-            *m2 += delta * (x - *mean);
+        #[expect(clippy::needless_range_loop, reason = "zipped iterators are not made into vectors here")]
+        for c in 0..C {
+            let delta = sample[c] - self.mean[c];
+            self.mean[c] += delta * inverse;
+            self.m2[c] += delta * (sample[c] - self.mean[c]);
         }
     }
 

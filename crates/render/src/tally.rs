@@ -29,7 +29,9 @@ impl<const C: usize> Tally<C> {
     pub fn clear(&mut self) {
         self.leaf = Moments::default();
         self.tree.clear();
-        self.loose = Moments::default();
+        if self.loose.count() > 0 {
+            self.loose = Moments::default();
+        }
         self.sums = [[0.0; C]; 2];
         self.counts = [0; 2];
     }
@@ -40,8 +42,9 @@ impl<const C: usize> Tally<C> {
         let values = values.map(f64::from);
         self.leaf.push(values);
         let half = (index & 1) as usize;
-        for (sum, value) in self.sums[half].iter_mut().zip(values) {
-            *sum += value;
+        let sums = &mut self.sums[half];
+        for c in 0..C {
+            sums[c] += values[c];
         }
         self.counts[half] += 1;
         if (index + 1).is_multiple_of(BLOCK_SAMPLES) {
