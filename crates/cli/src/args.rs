@@ -60,7 +60,8 @@ impl Default for Verb {
     noisefloor run my-scene.glb                         your own scene"
 )]
 pub struct Run {
-    /// Name of a built-in study or scene, a study file, a glTF file, or a folder of EXR frames with a reference [default: quick]
+    /// Name of a built-in study or scene, a study file, a glTF file, or a folder of EXR frames with a reference
+    /// [default: quick]
     pub study: Option<String>,
     /// Folder for records, images and the report [default: noisefloor-results/STUDY]
     #[arg(long, value_name = "DIR")]
@@ -74,8 +75,8 @@ pub struct Run {
     /// Threads for rendering and denoising [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
-    /// Which photon maps replicates get (scenes only): `fixed`, one pair for all and for the reference, or `fresh`, a new pair for
-    /// each and a path-traced reference
+    /// Which photon maps replicates get (scenes only): `fixed`, one pair for all and for the reference, or `fresh`, a
+    /// new pair for each and a path-traced reference
     #[arg(long, default_value = "fixed", value_parser = ["fixed", "fresh"])]
     pub maps: String,
     #[command(flatten)]
@@ -121,7 +122,8 @@ pub struct Render {
     /// Longest path, in edges from the eye to a light: 2 is direct light
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub depth: u32,
-    /// Light the scene by this OpenEXR image in latitude and longitude instead of its own sky; the first row is straight up
+    /// Light the scene by this OpenEXR image in latitude and longitude instead of its own sky; the first row is
+    /// straight up
     #[arg(long, value_name = "FILE")]
     pub environment: Option<PathBuf>,
     /// Film filter: `box` over the pixel, or `point` through its centre
@@ -130,7 +132,8 @@ pub struct Render {
     /// Sampling of the frame: `independent`, or `low-discrepancy` with an own randomisation for each half buffer
     #[arg(long, default_value = "independent", value_parser = ["independent", "low-discrepancy"], conflicts_with = "parts")]
     pub sampling: String,
-    /// Where features are taken: at the `first` hit, or `through-specular` surfaces at the first hit behind mirrors and glass
+    /// Where features are taken: at the `first` hit, or `through-specular` surfaces at the first hit behind mirrors and
+    /// glass
     #[arg(long, default_value = "first", value_parser = ["first", "through-specular"])]
     pub feature_hit: String,
     /// Index of the first sample: renders a range of a longer run with the same random seed
@@ -165,7 +168,8 @@ pub struct Shot {
     /// Degrees per frame by which the camera goes around what it looks at
     #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
     pub orbit: f32,
-    /// How light is carried: `path-tracing`, or `photon-mapping` with a caustic map and a global map that is gathered from
+    /// How light is carried: `path-tracing`, or `photon-mapping` with a caustic map and a global map that is gathered
+    /// from
     #[arg(long, default_value = "path-tracing", value_parser = ["path-tracing", "photon-mapping"])]
     pub integrator: String,
     /// Make photon maps of this many light paths [default with photon-mapping: 200000]; with path tracing they serve the

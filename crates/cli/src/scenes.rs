@@ -84,11 +84,11 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
         let shown = |image: &Image| tone_map(image, 0.0);
         entries.push(SheetEntry {
             title: format!(
-                "{}: {} spp, reference {} spp{}",
+                "{}: {} spp beside {}{}",
                 entry.id,
                 args.spp,
                 args.reference_spp,
-                if entry.photon_mapped { ", photon mapped" } else { "" }
+                if entry.photon_mapped { ", photon maps" } else { "" }
             ),
             images: [shown(&frame.color.mean), shown(reference.mean())],
         });

@@ -91,8 +91,8 @@ impl<'a> Measure<'a> {
         })
     }
 
-    /// The same, if t-intervals mean anything: sample counts that differ between pixels depend on the data, and void them,
-    /// and so do photon maps that the truth does not share.
+    /// The same, if t-intervals mean anything: sample counts that differ between pixels depend on the data, and void
+    /// them, and so do photon maps that the truth does not share.
     fn intervals(&self) -> Option<Observed<'_>> {
         let sound = void(self.frame.sampling).is_none()
             && photon_maps(self.frame) != Some(Maps::Fresh)

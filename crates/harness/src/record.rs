@@ -33,7 +33,8 @@ pub enum Outcome {
 pub struct Record {
     /// [`RECORD_SCHEMA`] when written.
     pub schema: u32,
-    /// Content hash of all that determines the cell's numbers: frame, method, parameters, metric definitions, program version.
+    /// Content hash of all that determines the cell's numbers: frame, method, parameters, metric definitions, program
+    /// version.
     pub cell: String,
     /// Study name.
     pub study: String,
@@ -41,7 +42,8 @@ pub struct Record {
     pub scene: String,
     /// Kind of sampling of the noisy frame.
     pub sampling: Sampling,
-    /// Which photon maps the frame was rendered with: [`crate::Maps::Fixed`] or [`crate::Maps::Fresh`]; absent without photon mapping.
+    /// Which photon maps the frame was rendered with: [`crate::Maps::Fixed`] or [`crate::Maps::Fresh`]; absent without
+    /// photon mapping.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub photon_maps: Option<crate::Maps>,
     /// Samples per pixel (rounded mean if they vary).
@@ -57,16 +59,18 @@ pub struct Record {
     /// How it ended; its fields stand beside the others as `status` and `reason`.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Metric id to value, over all pixels; `null` in JSON if not finite. Ids: mse, rmse, relmse, relmse_trimmed, psnr, ssim.
+    /// Metric id to value, over all pixels; `null` in JSON if not finite. Ids: mse, rmse, relmse, relmse_trimmed, psnr,
+    /// ssim.
     pub metrics: BTreeMap<String, Option<f64>>,
-    /// Metric id to the standard error that the reference's own noise contributes (common to all replicates); absent metrics have none stated.
+    /// Metric id to the standard error that the reference's own noise contributes (common to all replicates); absent
+    /// metrics have none stated.
     #[serde(default)]
     pub metrics_reference_se: BTreeMap<String, f64>,
     /// Metric id to standard error within this one image (block bootstrap), only when the study has one replicate.
     #[serde(default)]
     pub metrics_within_se: BTreeMap<String, f64>,
-    /// Metric id to standard error of the logarithm of the ratio to the noisy input's error, within this one image; only when the
-    /// study has one replicate.
+    /// Metric id to standard error of the logarithm of the ratio to the noisy input's error, within this one image;
+    /// only when the study has one replicate.
     #[serde(default)]
     pub ratio_within_se: BTreeMap<String, f64>,
     /// Pixel class to metric id to value.
@@ -89,8 +93,8 @@ pub struct Record {
     pub figures: BTreeMap<String, f64>,
     /// Times.
     pub seconds: Seconds,
-    /// Peak resident memory of the process during the cell, bytes, where the platform tells; the frame and its truth are in it. Where the
-    /// platform cannot reset the peak, it is that of the process so far.
+    /// Peak resident memory of the process during the cell, bytes, where the platform tells; the frame and its truth
+    /// are in it. Where the platform cannot reset the peak, it is that of the process so far.
     pub peak_memory_bytes: Option<u64>,
     /// Denoised image, relative to the study's folder.
     pub image: Option<String>,

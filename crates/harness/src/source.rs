@@ -58,7 +58,8 @@ enum Source {
 }
 
 impl Scene {
-    /// Opens a scene: builds it, or looks at the files of its folder. Renders nothing but tiny probes and decodes nothing.
+    /// Opens a scene: builds it, or looks at the files of its folder. Renders nothing but tiny probes and decodes
+    /// nothing.
     pub(crate) fn open(
         study: &Study,
         spec: &SceneSpec,

@@ -3,6 +3,7 @@ mod check;
 mod folder;
 mod of_scene;
 mod parse;
+mod plain;
 mod shot;
 
 use std::path::PathBuf;

@@ -8,10 +8,10 @@ pub enum Integrator {
     #[default]
     PathTracing,
     /// Photon mapping (Jensen 1996): specular and glossy surfaces are followed from the eye to the first diffuse one.
-    /// Direct light there is sampled as in path tracing; caustics are looked up in the caustic map; the rest is gathered
-    /// by one ray per sample from the global map. Biased by the radii of the looks, and where interpolated normals send
-    /// light other ways than they bring it to the eye: a percent or less on fine meshes, more on coarse ones. All samples of an image share
-    /// the error of its maps: the variance between samples does not know it.
+    /// Direct light there is sampled as in path tracing; caustics are looked up in the caustic map; the rest is
+    /// gathered by one ray per sample from the global map. Biased by the radii of the looks, and where interpolated
+    /// normals send light other ways than they bring it to the eye: a percent or less on fine meshes, more on coarse
+    /// ones. All samples of an image share the error of its maps: the variance between samples does not know it.
     PhotonMapping,
 }
 

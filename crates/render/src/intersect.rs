@@ -1,7 +1,8 @@
 //! Rays against a prepared scene: what stands still in one hierarchy, each moving body in its own.
 //!
-//! A body's hierarchy is built where the body is when the shutter opens. A ray is taken there by the inverse of the body's
-//! movement at the ray's time, which is a rotation and a translation and so keeps distances; what it hits is taken back.
+//! A body's hierarchy is built where the body is when the shutter opens. A ray is taken there by the inverse of the
+//! body's movement at the ray's time, which is a rotation and a translation and so keeps distances; what it hits is
+//! taken back.
 
 use glam::{Affine3A, Vec3A};
 use noisefloor_scenes::Body;

@@ -111,7 +111,8 @@ impl Gradient {
         if w.y < 0.0 { self.ground } else { self.horizon + self.rise * w.y }
     }
 
-    /// Half the sky's luminous flux through a sphere of radius 1; the other half is left to directions that surfaces choose.
+    /// Half the sky's luminous flux through a sphere of radius 1; the other half is left to directions that surfaces
+    /// choose.
     fn power(&self) -> f32 {
         // The mean over the upper hemisphere of a blend by the cosine is the middle.
         let mean = (self.horizon + (self.horizon + self.rise)) * 0.25 + self.ground * 0.5;
@@ -236,9 +237,9 @@ impl Lights {
         Chances { cumulative: cumulative.collect(), chances: weights.iter().map(|w| share(*w)).collect() }
     }
 
-    /// Light that leaves a source into a sphere, or some more of it: origin, direction, and its flux over the density of all
-    /// choices. `u` places it, `v` turns it. Nothing that would meet the sphere is left out. `None` where the source has
-    /// nothing to give.
+    /// Light that leaves a source into a sphere, or some more of it: origin, direction, and its flux over the density
+    /// of all choices. `u` places it, `v` turns it. Nothing that would meet the sphere is left out. `None` where the
+    /// source has nothing to give.
     pub fn emit(
         &self,
         u: [f32; 4],

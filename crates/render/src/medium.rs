@@ -41,9 +41,9 @@ impl Medium {
     }
 
     /// Samples a flight towards a surface at `limit`, finite. The colour whose extinction sets the density is chosen in
-    /// proportion to `throughput`, which is not all zero, and the factor divides by the mean density under that choice: the
-    /// sum of the throughput over the colours never grows, however long the path and however the coefficients differ. A
-    /// medium that does not scatter only dims, without a random choice.
+    /// proportion to `throughput`, which is not all zero, and the factor divides by the mean density under that choice:
+    /// the sum of the throughput over the colours never grows, however long the path and however the coefficients
+    /// differ. A medium that does not scatter only dims, without a random choice.
     #[inline]
     pub fn fly(&self, limit: f32, throughput: Vec3A, u: f32) -> Flight {
         if self.scattering == Vec3A::ZERO {
@@ -62,7 +62,8 @@ impl Medium {
         let rate = self.extinction[channel];
         // 1 − rest is at least f32::EPSILON, so the logarithm is finite.
         let t = if rate > 0.0 { -(1.0 - rest).ln() / rate } else { f32::MAX };
-        // Both means are positive: the chosen colour's transmittance is at least f32::EPSILON at t, or at limit if t passes it.
+        // Both means are positive: the chosen colour's transmittance is at least f32::EPSILON at t, or at limit if t
+        // passes it.
         if t < limit {
             let through = self.transmittance(t);
             let density = (shares * self.extinction).dot(through).max(f32::MIN_POSITIVE);

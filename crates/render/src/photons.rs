@@ -172,8 +172,8 @@ impl PhotonMaps {
     /// them.
     ///
     /// # Errors
-    /// [`RenderError::InvalidRequest`] for settings out of range, and for a scene with a medium or with moving bodies, whose
-    /// photons this mapper does not follow.
+    /// [`RenderError::InvalidRequest`] for settings out of range, and for a scene with a medium or with moving bodies,
+    /// whose photons this mapper does not follow.
     pub fn new(scene: &Prepared, settings: &PhotonSettings, seed: u64) -> Result<Self, RenderError> {
         settings.check()?;
         let models = scene.models();
@@ -242,8 +242,8 @@ impl PhotonMaps {
         self.stamp == scene.stamp
     }
 
-    /// Irradiance by caustics at a point where a pixel is `footprint` wide, from light with at most `edges` edges, and the
-    /// density of caustic photons there per photon path.
+    /// Irradiance by caustics at a point where a pixel is `footprint` wide, from light with at most `edges` edges, and
+    /// the density of caustic photons there per photon path.
     pub(crate) fn caustic(&self, at: &Interaction, footprint: f32, edges: u32) -> (Vec3A, f32) {
         let most = self.settings.caustic_radius * self.radius;
         // Positive: a hit has a positive distance, and so a footprint, unless it underflows.
@@ -258,8 +258,8 @@ impl PhotonMaps {
     }
 }
 
-/// Follows `paths` light paths towards a sphere. `caustic`: keeps only what specular and glossy surfaces alone have turned,
-/// which must all be in the sphere; else keeps everything.
+/// Follows `paths` light paths towards a sphere. `caustic`: keeps only what specular and glossy surfaces alone have
+/// turned, which must all be in the sphere; else keeps everything.
 fn shoot(scene: &Prepared, paths: u32, target: Ball, caustic: bool, seed: u64) -> Vec<Photon> {
     let key = pixel_key(mix(seed ^ LIGHT_PATHS), u64::from(caustic));
     let chances = scene.lights.towards(target);

@@ -69,8 +69,8 @@ fn fraction(mean: &[f64]) -> f64 {
     }
 }
 
-/// Variance of the fraction R by linearisation: the residuals reached − R·traced have the sum of squares n·traced·R·(1−R), so
-/// the ratio of means has R·(1−R) / ((n−1)·traced), with `traced` the mean per sample.
+/// Variance of the fraction R by linearisation: the residuals reached − R·traced have the sum of squares
+/// n·traced·R·(1−R), so the ratio of means has R·(1−R) / ((n−1)·traced), with `traced` the mean per sample.
 fn fraction_variance(mean: &[f64], samples: u64) -> f64 {
     match mean.get(TRACED) {
         Some(traced) if *traced > 0.0 && samples >= 2 => {

@@ -17,8 +17,8 @@ pub enum Quantity {
     Normal,
     /// [`FeatureId::Depth`]: distance from the ray's origin to the first hit, 0 for background.
     Depth,
-    /// [`FeatureId::Visibility`]: shadow rays from the first hit that reached their light over shadow rays traced, 0 if none
-    /// was (background, perfectly specular, light below the horizon).
+    /// [`FeatureId::Visibility`]: shadow rays from the first hit that reached their light over shadow rays traced, 0 if
+    /// none was (background, perfectly specular, light below the horizon).
     Visibility,
     /// [`FeatureId::Direct`]: emission seen directly plus light scattered once; the colour at path depth 2.
     Direct,
@@ -29,8 +29,8 @@ pub enum Quantity {
     /// [`FeatureId::Brdf`]: mean over the samples of BRDF times cosine over density for the direction that was sampled, 0
     /// where none was (rousselle2013rdfc, Fig. 9); reflectance of specular surfaces, 0 for background.
     Brdf,
-    /// [`FeatureId::Motion`]: where the point that is seen will be on the next frame's image less where it is on this one's,
-    /// in pixels, right and down, both at the moment when the shutter opens; 0 for background.
+    /// [`FeatureId::Motion`]: where the point that is seen will be on the next frame's image less where it is on this
+    /// one's, in pixels, right and down, both at the moment when the shutter opens; 0 for background.
     Motion,
     /// [`FeatureId::Caustics`]: caustic photons per area around the hit, per path of light that was followed; in 1 over
     /// squared scene units. Needs photon maps.
@@ -133,8 +133,8 @@ impl Record {
     }
 }
 
-/// What a scene can give without photon maps: motion needs an animation, visibility and direct light need a light, the flash also needs a surface that is not
-/// perfectly specular.
+/// What a scene can give without photon maps: motion needs an animation, visibility and direct light need a light, the
+/// flash also needs a surface that is not perfectly specular.
 #[must_use]
 pub fn available(scene: &Scene) -> Vec<Quantity> {
     let models = scene.models();

@@ -83,8 +83,8 @@ fn metal(scene: &mut Scene) {
 /// Radii as factors, and the weights with which a polynomial of degree 2 through them gives its value at radius 0.
 const RADII: [(f32, f64); 3] = [(1.0, 1.0 / 3.0), (0.5, -2.0), (0.25, 8.0 / 3.0)];
 
-/// Compares photon mapping at three radii with path tracing: the difference shrinks with the radius, and where it points to
-/// for radius 0 is nothing. Returns the p-values of the blocks.
+/// Compares photon mapping at three radii with path tracing: the difference shrinks with the radius, and where it
+/// points to for radius 0 is nothing. Returns the p-values of the blocks.
 fn compare(scene: &Scene) -> Vec<f64> {
     let prepared = Prepared::new(scene).unwrap();
     let mut truth = Moments::<12>::default();

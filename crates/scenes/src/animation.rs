@@ -93,7 +93,8 @@ impl Animation {
         self.shutter > 0.0 && !self.bodies.is_empty()
     }
 
-    /// The first number that has no meaning, or the first moving mesh that may not move: what, its value, what is allowed.
+    /// The first number that has no meaning, or the first moving mesh that may not move: what, its value, what is
+    /// allowed.
     #[must_use]
     pub fn problem(&self, scene: &Scene) -> Option<(String, String, &'static str)> {
         let found = |what: &str, value: String, allowed| Some((what.to_owned(), value, allowed));

@@ -10,8 +10,8 @@ pub struct Medium {
     pub absorption: Vec3,
     /// Coefficient of scattering per scene unit, in [0, 1e6], by colour.
     pub scattering: Vec3,
-    /// Mean cosine of the angle by which scattering turns light (Henyey and Greenstein 1941), in [−0.95, 0.95]; 0 scatters
-    /// evenly, positive values scatter forwards.
+    /// Mean cosine of the angle by which scattering turns light (Henyey and Greenstein 1941), in [−0.95, 0.95]; 0
+    /// scatters evenly, positive values scatter forwards.
     pub mean_cosine: f32,
 }
 

@@ -115,7 +115,8 @@ impl Cell<'_> {
             .collect()
     }
 
-    /// Ratios of errors to the baseline's on the same frames; none for scores, nor where a corrected error is not positive.
+    /// Ratios of errors to the baseline's on the same frames; none for scores, nor where a corrected error is not
+    /// positive.
     fn ratios(&self, class: Option<&str>) -> BTreeMap<String, Interval> {
         let Some(baseline) = self.index.baseline() else { return BTreeMap::new() };
         let of_baseline = self.index.records(self.scene, self.spp, &baseline.summary.label);

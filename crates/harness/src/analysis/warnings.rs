@@ -10,8 +10,8 @@ use crate::summary::Summary;
 /// Standard errors by which a level may differ from plain Monte Carlo's c/n before it is told.
 const DEVIATION: f64 = 5.0;
 
-/// Cells whose output left an interval that it claims never to leave: scene, level, row and the worst ratio. Empty unless a method
-/// is broken or claims too much.
+/// Cells whose output left an interval that it claims never to leave: scene, level, row and the worst ratio. Empty
+/// unless a method is broken or claims too much.
 #[must_use]
 pub fn violations(summary: &Summary) -> Vec<String> {
     let worst = |cell: &crate::summary::CellSummary| cell.enclosure_worst_ratio.filter(|ratio| *ratio > 1.0);

@@ -1,15 +1,11 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use noisefloor_frame::{PixelFilter, Reference, Sampling};
 use noisefloor_io::{ReadOptions, scan_scenes};
-use noisefloor_render::FeatureHit;
 
 use crate::error::HarnessError;
 use crate::study::check::{Lines, check};
-use crate::study::{
-    Family, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot, Study, Timing,
-};
+use crate::study::{MethodRow, SceneSource, SceneSpec, Shot, Study};
 
 impl Study {
     /// A study of somebody else's frames: the folder itself, or each of its sub-folders, with a reference in it. `spp` is
@@ -46,39 +42,14 @@ impl Study {
                 shot: Shot::default(),
             });
         }
-        let metrics = crate::metric::ids();
         let study = Self {
             title: format!("Frames of {name}"),
             question: "On these frames of another renderer: which denoiser has the lowest error at which cost, and do the \
                        confidence intervals and error bounds hold?"
                 .into(),
-            analysis: Vec::new(),
-            reproduces: None,
-            name,
-            spp: levels.into_iter().collect(),
-            replicates: Replicates::uniform(1),
             width: folders[0].reference_info.width, // at least one folder by contract
             height: folders[0].reference_info.height,
-            depth: 8,
-            filter: PixelFilter::Box,
-            feature_hit: FeatureHit::First,
-            seed: 0,
-            sampling: Sampling::Independent,
-            reference: ReferenceSpec {
-                spp: 1024,
-                parts: Reference::LEAST_PARTS as u32,
-                sampling: Sampling::LowDiscrepancy,
-            },
-            scenes,
-            methods: rows,
-            primary_metric: crate::metric::primary(&metrics),
-            metrics,
-            coverage: vec![0.95, 0.99, 0.998],
-            timing: Timing::default(),
-            comparison: Family::AllPairs,
-            viewer_spp: Vec::new(),
-            probe: None,
-            figures: Vec::new(),
+            ..Self::plain(name, levels.into_iter().collect(), scenes, rows)
         };
         check(&study, &Lines { file: path.display().to_string(), ..Lines::default() })?;
         Ok(study)

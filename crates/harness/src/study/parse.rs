@@ -144,8 +144,8 @@ impl Study {
     /// Reads a study. `path` is named in messages, and folders of frames are found relative to the folder it is in.
     ///
     /// # Errors
-    /// [`HarnessError::Syntax`], [`HarnessError::Field`] or [`HarnessError::Scene`], each with the line. Methods are looked
-    /// up when the study is run, because only then is there a registry.
+    /// [`HarnessError::Syntax`], [`HarnessError::Field`] or [`HarnessError::Scene`], each with the line. Methods are
+    /// looked up when the study is run, because only then is there a registry.
     pub fn from_toml(text: &str, path: &Path) -> Result<Self, HarnessError> {
         let file = path.display().to_string();
         let line_at = |offset: usize| text[..offset.min(text.len())].matches('\n').count() + 1;

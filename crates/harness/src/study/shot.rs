@@ -10,8 +10,8 @@ pub enum Maps {
     /// intervals and bounds can hold.
     #[default]
     Fixed,
-    /// A new pair for each replicate, and a path-traced reference: errors are against the true image. The variance between
-    /// the samples of a frame does not know the error of its maps, so intervals and bounds are void.
+    /// A new pair for each replicate, and a path-traced reference: errors are against the true image. The variance
+    /// between the samples of a frame does not know the error of its maps, so intervals and bounds are void.
     Fresh,
 }
 

@@ -1,7 +1,7 @@
 //! A winged serpent on a pedestal in a hall full of thin fog, lit through slits in a wall, in metres.
 //!
-//! Stands in for the dragon in fog of rousselle2013rdfc: a finely detailed diffuse figure and a small strong lamp
-//! whose light falls through slits, so that shafts show in the homogeneous medium that fills the hall. All light comes from
+//! Stands in for the dragon in fog of rousselle2013rdfc: a finely detailed diffuse figure and a small strong lamp whose
+//! light falls through slits, so that shafts show in the homogeneous medium that fills the hall. All light comes from
 //! within the closed hall.
 
 mod head;
