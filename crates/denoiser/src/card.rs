@@ -109,6 +109,8 @@ pub struct MethodCard {
     pub needs: Vec<Need>,
     /// Inputs it uses if present; a renderer records these too.
     pub uses: Vec<Need>,
+    /// Frames of an animation that it uses on each side of the target, if [`crate::Input`] has them.
+    pub neighbors: usize,
     /// Promises.
     pub claims: Claims,
     /// Conditions, deviations and known failures worth a line in a report.
@@ -125,6 +127,7 @@ impl MethodCard {
             citation,
             needs: Vec::new(),
             uses: Vec::new(),
+            neighbors: 0,
             claims: Claims::default(),
             notes: Vec::new(),
         }

@@ -3,7 +3,8 @@ use noisefloor_stats::Level;
 use serde_json::Value;
 
 use crate::{
-    BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, ParamDoc, half_widths,
+    Adaptive, BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, ParamDoc,
+    half_widths,
 };
 
 /// Projects any method's output into the confidence interval of the input mean:
@@ -124,5 +125,9 @@ impl Denoiser for Guarded {
         output.error_estimate = None;
         output.figures.push(("projected values".into(), moved as f64));
         Ok(output)
+    }
+
+    fn adaptive(&self) -> Option<&dyn Adaptive> {
+        self.inner.adaptive()
     }
 }

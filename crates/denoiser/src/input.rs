@@ -42,6 +42,12 @@ impl<'a> Input<'a> {
         Self { diagnostics, ..self }
     }
 
+    /// Adds neighbouring frames of an animation, sanitised like the target and in time order.
+    #[must_use]
+    pub fn with_neighbors(self, before: &'a [Frame], after: &'a [Frame]) -> Self {
+        Self { before, after, ..self }
+    }
+
     /// Refuses before any work: every need of the card must be met and all buffers must fit together.
     ///
     /// # Errors
@@ -52,6 +58,11 @@ impl<'a> Input<'a> {
             return Err(DenoiseError::MissingInputs { method: card.id.clone(), missing });
         }
         self.target.check()?;
+        let (width, height) = (self.target.width(), self.target.height());
+        for neighbor in self.before.iter().chain(self.after) {
+            neighbor.check()?;
+            neighbor.color.mean.expect_shape("colour of a neighbouring frame", width, height, 3)?;
+        }
         Ok(())
     }
 }

@@ -26,6 +26,7 @@
 //!
 //! To be found by name, a method also gives an [`Entry`], and a [`Registry`] is a list of entries.
 
+mod adaptive;
 mod card;
 mod entry;
 mod error;
@@ -40,6 +41,7 @@ mod timer;
 #[cfg(test)]
 mod tests;
 
+pub use adaptive::Adaptive;
 pub use card::{Citation, Claim, Claims, MethodCard, Need};
 pub use entry::{Build, BuildError, Entry, ParamDoc, build_with, params_from};
 pub use error::DenoiseError;
@@ -65,4 +67,9 @@ pub trait Denoiser: Send + Sync {
     /// [`DenoiseError::MissingInputs`] before any work if something in [`MethodCard::needs`] is absent, and whatever the
     /// method's own limits are.
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError>;
+
+    /// The part of the method that steers adaptive sampling, if it has one.
+    fn adaptive(&self) -> Option<&dyn Adaptive> {
+        None
+    }
 }
