@@ -9,7 +9,9 @@
 //! This is the only crate of the workspace that may use `unsafe`.
 
 pub mod flash_filter;
+mod grid;
 mod level;
+mod mirror;
 mod simd;
 mod tiles;
 

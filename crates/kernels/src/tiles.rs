@@ -25,14 +25,14 @@ pub(crate) type TileRows<'a> = Vec<&'a mut [f32]>;
 ///
 /// `outputs` are planes of `width` values per row; `body` gets its tile's rows of each. `scratch` makes the
 /// working memory that a worker keeps from tile to tile.
-pub(crate) fn for_each_tile<S, const N: usize>(
+pub(crate) fn for_each_tile<'a, S>(
     width: usize,
     tile_size: (usize, usize),
-    outputs: [&mut [f32]; N],
+    outputs: impl IntoIterator<Item = &'a mut [f32]>,
     scratch: impl Fn() -> S + Sync + Send,
-    body: impl Fn(&mut S, Tile, [TileRows<'_>; N]) + Sync + Send,
+    body: impl Fn(&mut S, Tile, Vec<TileRows<'_>>) + Sync + Send,
 ) {
-    let mut tiles: Vec<(Tile, [TileRows<'_>; N])> = Vec::new();
+    let mut tiles: Vec<(Tile, Vec<TileRows<'_>>)> = Vec::new();
     for (plane, values) in outputs.into_iter().enumerate() {
         let mut next = 0;
         for (band, rows) in values.chunks_mut(width * tile_size.1).enumerate() {
@@ -43,9 +43,12 @@ pub(crate) fn for_each_tile<S, const N: usize>(
                     if next == tiles.len() {
                         let (x, y) = (column * tile_size.0, band * tile_size.1);
                         let tile = Tile { x, y, width: part.len(), height: 0 };
-                        tiles.push((tile, [const { Vec::new() }; N]));
+                        tiles.push((tile, Vec::new()));
                     }
                     let (tile, parts) = &mut tiles[next];
+                    if parts.len() == plane {
+                        parts.push(Vec::new());
+                    }
                     parts[plane].push(part);
                     tile.height = parts[plane].len();
                     next += 1;
@@ -86,7 +89,7 @@ mod tests {
             for_each_tile(
                 width,
                 (64, 16),
-                [&mut a, &mut b],
+                [a.as_mut_slice(), b.as_mut_slice()],
                 || (),
                 |(), tile, planes| {
                     assert!(tile.x + tile.width <= width && tile.y + tile.height <= height);

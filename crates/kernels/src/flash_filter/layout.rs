@@ -5,10 +5,8 @@
 //! marked as outside while copying), keeps memory use independent of the image, and lets rows start where the
 //! caches like them: aligned, at a distance of an odd number of cache lines, planes staggered.
 
+use crate::grid::{Grid, LINE};
 use crate::simd::MAX_LANES;
-
-/// Values per cache line.
-const LINE: usize = 16;
 
 /// Most horizontal offsets that one pass over a tile handles together.
 pub(super) const BLOCK: usize = 16;
@@ -28,38 +26,6 @@ pub(super) struct Layout {
     pub pixel: Grid,
     /// Vertical patch sums: the tile and f columns on both sides, one plane for each offset of a block.
     pub columns: Grid,
-}
-
-/// One kind of plane.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Grid {
-    /// Columns left of the tile.
-    pub left: usize,
-    /// Rows above the tile.
-    pub above: usize,
-    /// Columns in use, from the leftmost.
-    pub columns: usize,
-    /// Rows.
-    pub rows: usize,
-    /// Distance between rows.
-    pub pitch: usize,
-    /// Distance between planes.
-    pub plane: usize,
-}
-
-impl Grid {
-    fn new(left: usize, above: usize, columns: usize, rows: usize) -> Self {
-        // An odd number of lines, so that the rows of a column of vectors fall into different cache sets.
-        let pitch = (columns.div_ceil(LINE) | 1) * LINE;
-        // Planes start 5 lines apart modulo a page, so that equal places of them do not share a cache set.
-        let plane = (rows * pitch).next_multiple_of(64 * LINE) + 5 * LINE;
-        Self { left, above, columns, rows, pitch, plane }
-    }
-
-    /// Index of the tile's first pixel within a plane.
-    pub fn origin(&self) -> usize {
-        self.above * self.pitch + self.left
-    }
 }
 
 impl Layout {

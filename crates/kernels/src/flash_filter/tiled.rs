@@ -1,12 +1,13 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
 use super::hot::{self, Block, JOINT, SEPARATE, SINGLE, TileView};
-use super::layout::{BLOCK, Grid, Layout};
+use super::layout::{BLOCK, Layout};
 use super::members::{EVERYTHING, Tests, half_width};
-use super::naive::mirror;
 use super::params::MAX_PATCH_RADIUS;
 use super::{FlashInputs, FlashParams};
 use crate::Level;
+use crate::grid::Grid;
+use crate::mirror::mirror;
 use crate::simd::Portable;
 #[cfg(target_arch = "x86_64")]
 use crate::simd::{Avx2, Avx512};
@@ -100,7 +101,7 @@ impl Scratch {
 }
 
 impl Job<'_> {
-    fn run(&self, scratch: &mut Scratch, tile: Tile, out: [TileRows<'_>; 3]) {
+    fn run(&self, scratch: &mut Scratch, tile: Tile, out: Vec<TileRows<'_>>) {
         let layout = &self.layout;
         let memory = &mut scratch.memory[scratch.start..];
         let (source, memory) = memory.split_at_mut(4 * layout.source.plane);
@@ -262,7 +263,7 @@ impl Job<'_> {
     }
 
     /// Divides the sums and writes the tile's result.
-    fn finish(&self, view: &TileView<'_>, tile: Tile, out: [TileRows<'_>; 3]) {
+    fn finish(&self, view: &TileView<'_>, tile: Tile, out: Vec<TileRows<'_>>) {
         let (source, pixel) = (&self.layout.source, &self.layout.pixel);
         for (c, rows) in out.into_iter().enumerate() {
             for (j, row) in rows.into_iter().enumerate() {

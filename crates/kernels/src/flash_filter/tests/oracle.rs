@@ -93,11 +93,3 @@ fn the_single_precision_loop_agrees() {
         assert!(worst < TOLERANCE, "{rule:?}: off by {worst:e}");
     }
 }
-
-#[test]
-fn mirroring_reflects_as_often_as_needed() {
-    let at = |n| (-7..=8).map(|i| naive::mirror(i, n)).collect::<Vec<_>>();
-    assert_eq!(at(1), [0; 16]);
-    assert_eq!(at(2), [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0]);
-    assert_eq!(at(4), [1, 0, 1, 2, 3, 2, 1, 0, 1, 2, 3, 2, 1, 0, 1, 2]);
-}
