@@ -12,6 +12,7 @@ pub mod flash_filter;
 mod grid;
 mod level;
 mod mirror;
+pub mod nlm;
 mod simd;
 mod tiles;
 
