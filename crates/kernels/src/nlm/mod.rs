@@ -20,10 +20,13 @@
 //! finite difference: what Stein's unbiased risk estimate needs.
 
 mod error;
+mod hot;
+mod layout;
 pub mod naive;
 mod params;
 #[cfg(test)]
 mod tests;
+mod tiled;
 
 pub use error::NlmError;
 pub use params::{
@@ -32,14 +35,49 @@ pub use params::{
     MAX_WINDOW_RADIUS, MIN_FLOOR, MIN_K, NlmInputs, NlmParams, Pass, Perturbation, Planes, Rule,
 };
 
-/// Filters with the fastest instruction set of this machine.
+use crate::Level;
+
+/// Filters with the fastest instruction set of this machine: for each pass all targets.
 ///
 /// # Errors
 /// As [`NlmParams::check`].
+///
+/// ```
+/// use noisefloor_kernels::nlm::{Channel, NlmInputs, NlmParams, Pass, Planes, filter};
+///
+/// // A step of height 10 and noise of variance 1: the values on each side are averaged among themselves.
+/// let noisy = [0.5, -0.5, 0.5, 10.5, 9.5, 10.5];
+/// let guide = vec![Channel { value: &noisy, variance: &[1.0; 6] }];
+/// let frame = Planes { guide, features: vec![], targets: vec![&noisy] };
+/// let inputs = NlmInputs { frame, neighbors: vec![], perturbation: None };
+/// let pass = Pass { patch: Some(0), floor: 1e-3, derivative: false };
+///
+/// let filtered = &filter(&NlmParams::new(6, 1, 5, 0.45), &[pass], &inputs)?[0];
+/// assert!(filtered.planes[0][..3].iter().all(|v| (v - 0.5 / 3.0).abs() < 1e-6));
+/// assert!(filtered.weight_sum.iter().all(|w| (w - 3.0).abs() < 1e-6));
+/// # Ok::<(), noisefloor_kernels::nlm::NlmError>(())
+/// ```
 pub fn filter(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
 ) -> Result<Vec<Filtered>, NlmError> {
-    naive::filter_f32(params, passes, inputs)
+    filter_at(params, passes, inputs, Level::best())
+}
+
+/// Filters with a given instruction set. Every level gives the same bits.
+///
+/// # Errors
+/// As [`NlmParams::check`], and [`NlmError::LevelUnavailable`].
+pub fn filter_at(
+    params: &NlmParams,
+    passes: &[Pass],
+    inputs: &NlmInputs<'_>,
+    level: Level,
+) -> Result<Vec<Filtered>, NlmError> {
+    params.check(passes, inputs)?;
+    if !level.is_available() {
+        return Err(NlmError::LevelUnavailable { level });
+    }
+    Ok(tiled::filter(params, passes, inputs, level, tiled::TILE))
 }

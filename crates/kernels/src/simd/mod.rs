@@ -46,6 +46,12 @@ pub(crate) trait Simd {
     unsafe fn add(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn sub(a: Self::F, b: Self::F) -> Self::F;
     unsafe fn mul(a: Self::F, b: Self::F) -> Self::F;
+    /// a / b, rounded correctly.
+    unsafe fn div(a: Self::F, b: Self::F) -> Self::F;
+    /// a if a < b, else b; so b if either is NaN.
+    unsafe fn min(a: Self::F, b: Self::F) -> Self::F;
+    /// a if a > b, else b; so b if either is NaN.
+    unsafe fn max(a: Self::F, b: Self::F) -> Self::F;
     /// a·b + c, rounded once.
     unsafe fn fma(a: Self::F, b: Self::F, c: Self::F) -> Self::F;
     unsafe fn abs(a: Self::F) -> Self::F;

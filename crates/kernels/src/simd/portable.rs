@@ -31,6 +31,9 @@ impl Simd for Portable {
         add(a: f32, b: f32) -> f32 = a + b;
         sub(a: f32, b: f32) -> f32 = a - b;
         mul(a: f32, b: f32) -> f32 = a * b;
+        div(a: f32, b: f32) -> f32 = a / b;
+        min(a: f32, b: f32) -> f32 = if a < b { a } else { b };
+        max(a: f32, b: f32) -> f32 = if a > b { a } else { b };
         fma(a: f32, b: f32, c: f32) -> f32 = a.mul_add(b, c);
         abs(a: f32) -> f32 = a.abs();
         le(a: f32, b: f32) -> bool = a <= b;

@@ -1,0 +1,687 @@
+//! The inner loops, generic over the instruction set.
+//!
+//! For one block of horizontal offsets: [`patch_columns`] makes the vertical part of the patch distances, and
+//! [`accumulate`] the rest: feature distances, weights, running sums. Every function is inlined whole into the
+//! wrapper of its instruction set; there are no calls inside.
+
+#![expect(clippy::needless_range_loop, reason = "fixed counts, unrolled; iterators may end up as calls")]
+
+use std::ops::Range;
+
+use super::layout::{
+    KINDS, LARGEST, Layout, MAX_BLOCK, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT,
+};
+use super::params::MAX_PATCH_RADIUS;
+use crate::simd::Simd;
+
+/// Exponent that makes a weight zero.
+pub(super) const PENALTY: f32 = -1e9;
+
+/// `PATCH` of a pass without a patch.
+const NO_PATCH: usize = MAX_PATCH_RADIUS + 1;
+
+/// One pass as the inner loops see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HotPass {
+    /// Patch radius, or [`NO_PATCH`].
+    patch: usize,
+    /// Which of the layout's patch radii.
+    columns: usize,
+    /// Which of the two τ.
+    floor: usize,
+    /// Factor from patch sums to an exponent of 2.
+    scale: f32,
+    /// Whether the derivative is wanted.
+    derivative: bool,
+}
+
+impl HotPass {
+    pub fn new(patch: Option<usize>, columns: usize, floor: usize, scale: f32, derivative: bool) -> Self {
+        Self { patch: patch.unwrap_or(NO_PATCH), columns, floor, scale, derivative }
+    }
+
+    /// Whether the pass gives a derivative.
+    pub fn gives_derivative(&self) -> bool {
+        self.derivative
+    }
+
+    /// Whether that is a finite difference: without a patch the weights do not depend on the guide.
+    pub fn finite_difference(&self) -> bool {
+        self.derivative && self.patch != NO_PATCH
+    }
+}
+
+/// Views of one tile's working copies, see [`Layout`].
+pub(super) struct TileView<'a> {
+    pub layout: &'a Layout,
+    pub passes: &'a [HotPass],
+    /// Valid pixels of the tile, from its first.
+    pub width: usize,
+    /// Guide of the frame to filter, and its variances scaled by k².
+    pub here: &'a [f32],
+    /// Guide of the frame that is searched.
+    pub there: &'a [f32],
+    /// Features, targets and penalty of the frame that is searched.
+    pub area: &'a [f32],
+    /// Features of the tile's own pixels, and perturbation steps.
+    pub pixel: &'a [f32],
+    pub sums: &'a mut [f32],
+    pub columns: &'a mut [f32],
+    pub constants: Constants,
+}
+
+/// Numbers that are the same for all tiles.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Constants {
+    /// −κ/k².
+    pub cancellation: f32,
+    /// ε.
+    pub epsilon: f32,
+    /// Largest Δ².
+    pub largest: f32,
+    /// Whether Φ² is divided by the sum of both pixels' D.
+    pub pair: bool,
+    /// The two τ.
+    pub floors: [f32; KINDS],
+    /// Number of different τ.
+    pub floor_count: usize,
+    /// Whether the pixel itself gets the largest of its neighbours' weights.
+    pub largest_center: bool,
+    /// Whether any pass wants the derivative.
+    pub derivative: bool,
+    /// Whether it moves all channels at once, and p only as the centre of its own patch.
+    pub joint: bool,
+    /// Factor of Φ²·D·channels to an exponent of 2, for pairs, one per feature: −log₂e/(k_f²·channels) is folded into the pixel
+    /// planes otherwise.
+    pub pair_scale: f32,
+}
+
+/// One row of neighbours: up to `MAX_BLOCK` horizontal offsets dx, dx+1, … at vertical offset dy.
+pub(super) struct Block {
+    /// Tile rows whose neighbours lie inside the image.
+    pub rows: Range<usize>,
+    pub dy: isize,
+    pub dx: isize,
+    /// Number of offsets that count; those after them have weight 0.
+    pub count: usize,
+    /// Whether the neighbours are of the frame to filter.
+    pub same_frame: bool,
+}
+
+impl Block {
+    /// Place of offset (0, 0) in the frame to filter, if the block has it.
+    #[inline(always)]
+    fn center(&self) -> usize {
+        if self.same_frame && self.dy == 0 && (0..self.count as isize).contains(&-self.dx) {
+            -self.dx as usize
+        } else {
+            usize::MAX
+        }
+    }
+}
+
+/// Reads a vector at `index` of `plane`.
+///
+/// # Safety
+/// The instruction set is available and `index + LANES` values exist.
+#[inline(always)]
+unsafe fn at<S: Simd>(plane: &[f32], index: usize) -> S::F {
+    debug_assert!(index + S::LANES <= plane.len(), "reads {index} of {}", plane.len());
+    // SAFETY: as the caller vouches.
+    unsafe { S::load(plane.as_ptr().add(index)) }
+}
+
+/// Writes a vector at `index` of `plane`.
+///
+/// # Safety
+/// As [`at`].
+#[inline(always)]
+unsafe fn put<S: Simd>(plane: &mut [f32], index: usize, value: S::F) {
+    debug_assert!(index + S::LANES <= plane.len(), "writes {index} of {}", plane.len());
+    // SAFETY: as the caller vouches.
+    unsafe { S::store(plane.as_mut_ptr().add(index), value) }
+}
+
+/// One pass over the tile: everything for one block of `G` offsets.
+///
+/// # Safety
+/// The instruction set is available. `tile` has the sizes that its layout says, `tile.width` is at most the
+/// layout's tile width, and the offsets are within the layout's reach.
+#[inline(always)]
+pub(super) unsafe fn pass<S: Simd>(tile: &mut TileView<'_>, block: &Block, group: usize) {
+    // SAFETY: passed on unchanged.
+    unsafe {
+        match group {
+            3 => sized::<S, 3>(tile, block),
+            6 => sized::<S, 6>(tile, block),
+            _ => sized::<S, 7>(tile, block),
+        }
+    }
+}
+
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn sized<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block) {
+    // SAFETY: passed on unchanged.
+    unsafe {
+        match *tile.layout.patches.as_slice() {
+            [] => {}
+            [0] => all_columns::<S, G, 0, 0>(tile, block),
+            [1] => all_columns::<S, G, 1, 1>(tile, block),
+            [2] => all_columns::<S, G, 2, 2>(tile, block),
+            [3] => all_columns::<S, G, 3, 3>(tile, block),
+            [1, _] => all_columns::<S, G, 1, 0>(tile, block),
+            [2, 0] => all_columns::<S, G, 2, 0>(tile, block),
+            [2, _] => all_columns::<S, G, 2, 1>(tile, block),
+            [_, 0] => all_columns::<S, G, 3, 0>(tile, block),
+            [_, 1] => all_columns::<S, G, 3, 1>(tile, block),
+            _ => all_columns::<S, G, 3, 2>(tile, block),
+        }
+        accumulate::<S, G>(tile, block);
+    }
+}
+
+/// Σ_c Δ²_c for `N` neighbouring offsets.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn distances<S: Simd, const N: usize>(tile: &TileView<'_>, here: usize, there: usize) -> [S::F; N] {
+    let (channels, plane, constants) = (tile.layout.channels, tile.layout.guide.plane, tile.constants);
+    // SAFETY: the caller vouches for the instruction set and the indices.
+    unsafe {
+        let mut out = [S::splat(0.0); N];
+        for c in 0..channels {
+            let (value, variance) = (c * plane, (channels + c) * plane);
+            let p = at::<S>(tile.here, value + here);
+            let vp = at::<S>(tile.here, variance + here);
+            for o in 0..N {
+                let q = at::<S>(tile.there, value + there + o);
+                let vq = at::<S>(tile.there, variance + there + o);
+                let d = S::sub(p, q);
+                out[o] = S::add(out[o], square::<S>(d, vp, vq, &constants));
+            }
+        }
+        out
+    }
+}
+
+/// Δ² of a difference.
+///
+/// # Safety
+/// The instruction set is available.
+#[inline(always)]
+unsafe fn square<S: Simd>(d: S::F, vp: S::F, vq: S::F, constants: &Constants) -> S::F {
+    // SAFETY: as the caller vouches. The denominator is at least ε.
+    unsafe {
+        let noise = S::add(vp, S::min(vp, vq));
+        let numerator = S::fma(S::splat(constants.cancellation), noise, S::mul(d, d));
+        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), vq);
+        S::min(S::div(numerator, denominator), S::splat(constants.largest))
+    }
+}
+
+/// Vertical patch sums of all offsets of the block.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn all_columns<S: Simd, const G: usize, const BIG: usize, const SMALL: usize>(
+    tile: &mut TileView<'_>,
+    block: &Block,
+) {
+    // SAFETY: passed on unchanged.
+    unsafe {
+        let mut first = 0;
+        while first + 2 <= G {
+            patch_columns::<S, BIG, SMALL, 2>(tile, block, first);
+            first += 2;
+        }
+        if first < G {
+            patch_columns::<S, BIG, SMALL, 1>(tile, block, first);
+        }
+    }
+}
+
+/// Vertical patch sums of offsets `first..first + N` of the block for radius `BIG`, and for `SMALL` if that is another, on the
+/// tile and `BIG` columns on both sides.
+///
+/// Walks down columns of vectors, the last 2·`BIG` rows of distances in registers.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn patch_columns<S: Simd, const BIG: usize, const SMALL: usize, const N: usize>(
+    tile: &mut TileView<'_>,
+    block: &Block,
+    first: usize,
+) {
+    // Copies, so that stores to the planes cannot make the compiler read any of this again.
+    let (guide, columns) = (tile.layout.guide, tile.layout.columns);
+    let corner = guide.origin() + block.rows.start * guide.pitch - BIG * guide.pitch - BIG;
+    let shift = block.dy * guide.pitch as isize + block.dx + first as isize;
+    let mut x = 0;
+    // SAFETY: the caller vouches for the instruction set; the guide copies reach `reach + patch` pixels beyond
+    // the tile on every side and a block more on the right, and the sums hold the tile and `patch` columns on both sides.
+    unsafe {
+        while x < tile.width + 2 * BIG {
+            let mut window = [[S::splat(0.0); N]; 2 * MAX_PATCH_RADIUS + 1];
+            let mut here = corner + x;
+            for row in window.iter_mut().take(2 * BIG) {
+                *row = distances::<S, N>(tile, here, here.wrapping_add_signed(shift));
+                here += guide.pitch;
+            }
+            let mut to = first * columns.plane + block.rows.start * columns.pitch + x;
+            for _ in block.rows.clone() {
+                window[2 * BIG] = distances::<S, N>(tile, here, here.wrapping_add_signed(shift));
+                for o in 0..N {
+                    let mut sum = window[BIG][o];
+                    for i in 1..=BIG {
+                        if SMALL < BIG && i == SMALL + 1 {
+                            put::<S>(tile.columns, to + (MAX_BLOCK + o) * columns.plane, sum);
+                        }
+                        sum = S::add(sum, S::add(window[BIG - i][o], window[BIG + i][o]));
+                    }
+                    put::<S>(tile.columns, to + o * columns.plane, sum);
+                }
+                for i in 0..2 * BIG {
+                    window[i] = window[i + 1];
+                }
+                here += guide.pitch;
+                to += columns.pitch;
+            }
+            x += S::LANES;
+        }
+    }
+}
+
+/// Horizontal patch sum of radius `PATCH` around `from + PATCH`, from the vertical sums.
+///
+/// # Safety
+/// As [`pass`], with 2·`LANES` values at `from`.
+#[inline(always)]
+unsafe fn patch_sum<S: Simd, const PATCH: usize>(columns: &[f32], from: usize) -> S::F {
+    debug_assert!(from + 2 * S::LANES <= columns.len());
+    // SAFETY: as the caller vouches.
+    unsafe {
+        let from = columns.as_ptr().add(from);
+        let mut sum = S::load_beside(from, PATCH);
+        for i in 1..=PATCH {
+            sum = S::add(sum, S::add(S::load_beside(from, PATCH - i), S::load_beside(from, PATCH + i)));
+        }
+        sum
+    }
+}
+
+/// Places of one vector of pixels in the planes.
+#[derive(Clone, Copy)]
+struct Place {
+    /// In pixel and accumulator planes.
+    pixel: usize,
+    /// Of the first neighbour, in area planes.
+    area: usize,
+    /// In guide planes.
+    here: usize,
+    /// Of the first neighbour, in guide planes.
+    there: usize,
+    /// Of the patch around the pixel, in column planes: its leftmost tap for the largest radius.
+    columns: usize,
+}
+
+/// Adds the block's offsets to the running sums of every pixel of the tile.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn accumulate<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block) {
+    let (area, guide, pixel, columns) =
+        (tile.layout.area, tile.layout.guide, tile.layout.pixel, tile.layout.columns);
+    // SAFETY: the caller vouches for the instruction set; the copies reach `reach` pixels beyond the tile.
+    unsafe {
+        for y in block.rows.clone() {
+            let mut x = 0;
+            while x < tile.width {
+                let here = guide.origin() + y * guide.pitch + x;
+                let shift = |pitch: usize| block.dy * pitch as isize + block.dx;
+                let place = Place {
+                    pixel: y * pixel.pitch + x,
+                    area: (area.origin() + y * area.pitch + x).wrapping_add_signed(shift(area.pitch)),
+                    here,
+                    there: here.wrapping_add_signed(shift(guide.pitch)),
+                    columns: y * columns.pitch + x,
+                };
+                vector::<S, G>(tile, block, place);
+                x += S::LANES;
+            }
+        }
+    }
+}
+
+/// [`accumulate`] for one vector of pixels.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn vector<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block, place: Place) {
+    // SAFETY: passed on unchanged.
+    unsafe {
+        let limits = limits::<S, G>(tile, block, place);
+        let mut bends = [[S::splat(0.0); G]; 3];
+        let mut exchanged = [[S::splat(0.0); G]; 3];
+        let mut near = false;
+        if tile.constants.derivative {
+            bends = self::bends::<S, G>(tile, block, place);
+            let reach = tile.layout.patches[0] as isize;
+            near = block.same_frame
+                && !tile.constants.joint
+                && block.dy.abs() <= reach
+                && block.dx <= reach
+                && block.dx + G as isize > -reach;
+            if near {
+                exchanged = self::exchanged::<S, G>(tile, block, place);
+            }
+        }
+        for k in 0..tile.passes.len() {
+            let pass = tile.passes[k];
+            let limit = if pass.floor == 0 { &limits[0] } else { &limits[1] };
+            let bends = Bends { own: &bends, exchanged: &exchanged, near };
+            match pass.patch {
+                0 => weigh::<S, G, 0>(tile, block, place, k, pass, limit, &bends),
+                1 => weigh::<S, G, 1>(tile, block, place, k, pass, limit, &bends),
+                2 => weigh::<S, G, 2>(tile, block, place, k, pass, limit, &bends),
+                3 => weigh::<S, G, 3>(tile, block, place, k, pass, limit, &bends),
+                _ => weigh::<S, G, NO_PATCH>(tile, block, place, k, pass, limit, &bends),
+            }
+        }
+    }
+}
+
+/// Exponents of 2 of the feature weights for both τ, at most 0; far below outside the image and for offsets that do not count.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn limits<S: Simd, const G: usize>(
+    tile: &TileView<'_>,
+    block: &Block,
+    place: Place,
+) -> [[S::F; G]; KINDS] {
+    let (layout, constants) = (tile.layout, tile.constants);
+    let two = constants.floor_count > 1;
+    let center = if constants.largest_center { block.center() } else { usize::MAX };
+    // SAFETY: the caller vouches for the instruction set and the indices.
+    unsafe {
+        let mut limits = [[S::splat(0.0); G]; KINDS];
+        for o in 0..G {
+            let penalty = at::<S>(tile.area, layout.area_penalty() + place.area + o);
+            let skip = o >= block.count || o == center;
+            limits[0][o] = if skip { S::splat(PENALTY) } else { penalty };
+        }
+        limits[1] = limits[0];
+        let mut channel = 0;
+        for &count in &layout.features {
+            let mut sums = [[S::splat(0.0); G]; KINDS];
+            let last = channel + count;
+            while channel < last {
+                let own = [0, 1, 2, 3].map(|kind| layout.pixel_feature(kind, channel) + place.pixel);
+                let p = at::<S>(tile.pixel, own[0]);
+                let negative = at::<S>(tile.pixel, own[1]);
+                let vp = S::sub(S::splat(0.0), negative);
+                let scales = [at::<S>(tile.pixel, own[2]), at::<S>(tile.pixel, own[3])];
+                let value = layout.area_feature(0, channel) + place.area;
+                let variance = layout.area_feature(1, channel) + place.area;
+                if constants.pair {
+                    let spread = layout.area_feature(2, channel) + place.area;
+                    for o in 0..G {
+                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
+                        let n = S::mul(n, S::splat(constants.pair_scale / count as f32));
+                        let dq = at::<S>(tile.area, spread + o);
+                        for i in 0..KINDS {
+                            let d = S::add(scales[i], S::max(dq, S::splat(constants.floors[i])));
+                            sums[i][o] = S::add(sums[i][o], S::div(n, d));
+                        }
+                    }
+                } else if two {
+                    for o in 0..G {
+                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
+                        sums[0][o] = S::fma(n, scales[0], sums[0][o]);
+                        sums[1][o] = S::fma(n, scales[1], sums[1][o]);
+                    }
+                } else {
+                    for o in 0..G {
+                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
+                        sums[0][o] = S::fma(n, scales[0], sums[0][o]);
+                    }
+                }
+                channel += 1;
+            }
+            for o in 0..G {
+                limits[0][o] = S::min(limits[0][o], sums[0][o]);
+                limits[1][o] = S::min(limits[1][o], sums[1][o]);
+            }
+        }
+        limits
+    }
+}
+
+/// (f(p) − f(q))² − (v(p) + min(v(p), v(q))).
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn excess<S: Simd>(
+    area: &[f32],
+    value: usize,
+    variance: usize,
+    p: S::F,
+    negative_vp: S::F,
+    vp: S::F,
+) -> S::F {
+    // SAFETY: the caller vouches for the instruction set and the indices.
+    unsafe {
+        let d = S::sub(at::<S>(area, value), p);
+        let noise = S::sub(negative_vp, S::min(vp, at::<S>(area, variance)));
+        S::fma(d, d, noise)
+    }
+}
+
+/// What moving the guide at p adds to a pair's patch sum, for each channel that is moved.
+struct Bends<'a, F, const G: usize> {
+    /// Through the centre of p's own patch.
+    own: &'a [[F; G]; 3],
+    /// Through p as a tap of q's patch; for pairs that are closer than the patch radius.
+    exchanged: &'a [[F; G]; 3],
+    /// Whether the block has such pairs.
+    near: bool,
+}
+
+/// Change of Δ² at the centre of the patches for each channel moved by its step (all at once: the sum, three times).
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn bends<S: Simd, const G: usize>(tile: &TileView<'_>, block: &Block, place: Place) -> [[S::F; G]; 3] {
+    let (layout, constants) = (tile.layout, tile.constants);
+    let center = block.center();
+    // SAFETY: the caller vouches for the instruction set and the indices.
+    unsafe {
+        let mut out = [[S::splat(0.0); G]; 3];
+        for c in 0..3 {
+            let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
+            let p = at::<S>(tile.here, value + place.here);
+            let vp = at::<S>(tile.here, variance + place.here);
+            let step = at::<S>(tile.pixel, layout.pixel_step(c) + place.pixel);
+            for o in 0..G {
+                let q = at::<S>(tile.there, value + place.there + o);
+                let vq = at::<S>(tile.there, variance + place.there + o);
+                let bend = bend::<S>(S::sub(p, q), step, vp, vq, &constants);
+                out[c][o] = if o == center { S::splat(0.0) } else { bend };
+            }
+        }
+        if constants.joint {
+            for o in 0..G {
+                out[0][o] = S::add(S::add(out[0][o], out[1][o]), out[2][o]);
+            }
+            out[1] = out[0];
+            out[2] = out[0];
+        }
+        out
+    }
+}
+
+/// The same through p as a tap of q's patch: the pair (p − offset, p).
+///
+/// # Safety
+/// As [`pass`]; offsets beyond the patch radius are left out.
+#[inline(always)]
+unsafe fn exchanged<S: Simd, const G: usize>(
+    tile: &TileView<'_>,
+    block: &Block,
+    place: Place,
+) -> [[S::F; G]; 3] {
+    let (layout, constants) = (tile.layout, tile.constants);
+    let reach = layout.patches[0] as isize;
+    let center = block.center();
+    // SAFETY: the caller vouches for the instruction set; the guide copies reach the patch radius beyond the tile.
+    unsafe {
+        let mut out = [[S::splat(0.0); G]; 3];
+        for c in 0..3 {
+            let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
+            let p = at::<S>(tile.here, value + place.here);
+            let vp = at::<S>(tile.here, variance + place.here);
+            let step = at::<S>(tile.pixel, layout.pixel_step(c) + place.pixel);
+            for o in 0..G {
+                let dx = block.dx + o as isize;
+                if dx.abs() > reach || o == center {
+                    continue;
+                }
+                let other = place.here.wrapping_add_signed(-(block.dy * layout.guide.pitch as isize + dx));
+                let a = at::<S>(tile.here, value + other);
+                let va = at::<S>(tile.here, variance + other);
+                // The square of u(a) − (u(p) + δ) is that of (u(p) − u(a)) + δ; the centre of this pair is a.
+                out[c][o] = bend::<S>(S::sub(p, a), step, va, vp, &constants);
+            }
+        }
+        out
+    }
+}
+
+/// Δ² of d + step less that of d.
+///
+/// # Safety
+/// The instruction set is available.
+#[inline(always)]
+unsafe fn bend<S: Simd>(d: S::F, step: S::F, vp: S::F, vq: S::F, constants: &Constants) -> S::F {
+    // SAFETY: as the caller vouches. The denominator is at least ε.
+    unsafe {
+        let noise = S::mul(S::splat(constants.cancellation), S::add(vp, S::min(vp, vq)));
+        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), vq);
+        let inverse = S::div(S::splat(1.0), denominator);
+        let largest = S::splat(constants.largest);
+        let moved = S::add(d, step);
+        let before = S::min(S::mul(S::fma(d, d, noise), inverse), largest);
+        let after = S::min(S::mul(S::fma(moved, moved, noise), inverse), largest);
+        S::sub(after, before)
+    }
+}
+
+/// 2^exponent, 0 below the range of normal numbers.
+///
+/// # Safety
+/// The instruction set is available.
+#[inline(always)]
+unsafe fn weight<S: Simd>(exponent: S::F) -> S::F {
+    // SAFETY: as the caller vouches.
+    unsafe {
+        let (value, scale) = S::exp2(exponent);
+        S::keep_scaled(S::le(S::splat(-126.0), exponent), value, scale)
+    }
+}
+
+/// One pass's weights of the block, and what they add to its sums.
+///
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn weigh<S: Simd, const G: usize, const PATCH: usize>(
+    tile: &mut TileView<'_>,
+    block: &Block,
+    place: Place,
+    index: usize,
+    pass: HotPass,
+    limit: &[S::F; G],
+    bends: &Bends<'_, S::F, G>,
+) {
+    let layout = tile.layout;
+    let (plane, targets) = (layout.pixel.plane, layout.targets);
+    let sums = layout.sums(index) + place.pixel;
+    // SAFETY: the caller vouches for the instruction set and the indices.
+    unsafe {
+        let scale = S::splat(pass.scale);
+        let mut guided = [S::splat(0.0); G];
+        let mut w = [S::splat(0.0); G];
+        for o in 0..G {
+            if PATCH != NO_PATCH {
+                let from = place.columns
+                    + (pass.columns * MAX_BLOCK + o) * layout.columns.plane
+                    + (layout.patches[0] - PATCH);
+                guided[o] = S::mul(patch_sum::<S, PATCH>(tile.columns, from), scale);
+                w[o] = weight::<S>(S::min(guided[o], limit[o]));
+            } else {
+                w[o] = weight::<S>(limit[o]);
+            }
+        }
+        let extra = sums + targets * plane;
+        let mut total = at::<S>(tile.sums, extra + WEIGHT * plane);
+        for o in 0..G {
+            total = S::add(total, w[o]);
+        }
+        put::<S>(tile.sums, extra + WEIGHT * plane, total);
+        if tile.constants.largest_center {
+            let mut largest = at::<S>(tile.sums, extra + LARGEST * plane);
+            for o in 0..G {
+                largest = S::max(w[o], largest);
+            }
+            put::<S>(tile.sums, extra + LARGEST * plane, largest);
+        }
+        for k in 0..targets {
+            let from = layout.area_target(k) + place.area;
+            let mut sum = at::<S>(tile.sums, sums + k * plane);
+            for o in 0..G {
+                sum = S::fma(w[o], at::<S>(tile.area, from + o), sum);
+            }
+            put::<S>(tile.sums, sums + k * plane, sum);
+        }
+        if PATCH == NO_PATCH || !pass.derivative {
+            return;
+        }
+        for c in 0..3 {
+            let value = c * layout.guide.plane;
+            let p = at::<S>(tile.here, value + place.here);
+            let mut step = at::<S>(tile.sums, extra + (STEP + c) * plane);
+            let mut moved_step = at::<S>(tile.sums, extra + (MOVED_STEP + c) * plane);
+            let mut moved_weight = at::<S>(tile.sums, extra + (MOVED_WEIGHT + c) * plane);
+            let mut moved_largest = at::<S>(tile.sums, extra + (MOVED_LARGEST + c) * plane);
+            for o in 0..G {
+                let d = S::sub(at::<S>(tile.there, value + place.there + o), p);
+                let mut bend = bends.own[c][o];
+                if bends.near {
+                    let distance = block.dy.abs().max((block.dx + o as isize).abs());
+                    if distance <= PATCH as isize {
+                        bend = S::add(bend, bends.exchanged[c][o]);
+                    }
+                }
+                let moved = weight::<S>(S::min(S::fma(bend, scale, guided[o]), limit[o]));
+                step = S::fma(w[o], d, step);
+                moved_step = S::fma(moved, d, moved_step);
+                moved_weight = S::add(moved_weight, moved);
+                moved_largest = S::max(moved, moved_largest);
+            }
+            put::<S>(tile.sums, extra + (STEP + c) * plane, step);
+            put::<S>(tile.sums, extra + (MOVED_STEP + c) * plane, moved_step);
+            put::<S>(tile.sums, extra + (MOVED_WEIGHT + c) * plane, moved_weight);
+            put::<S>(tile.sums, extra + (MOVED_LARGEST + c) * plane, moved_largest);
+        }
+    }
+}

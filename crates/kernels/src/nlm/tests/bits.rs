@@ -1,0 +1,76 @@
+//! The same bits on every instruction set, with any tile and any number of threads.
+
+use super::*;
+
+fn cases() -> Vec<Case> {
+    let both = Case::random(130, 37, 5, &candidates(true), &[3, 1]).with_step(Rule::Exact).with_neighbors(1);
+    let mut authors = Case::random(70, 21, 10, &candidates(true), &[2]).with_step(Rule::Joint);
+    authors.params.denominator = Denominator::Pair;
+    authors.params.center = Center::LargestNeighbor { least: 1e-3 };
+    vec![both, authors]
+}
+
+fn bits(filtered: &[Filtered]) -> Vec<u32> {
+    let planes = |f: &Filtered| {
+        let mut all: Vec<f32> = f.planes.concat();
+        all.extend(&f.weight_sum);
+        all.extend(&f.center_share);
+        all.extend(f.derivative.concat());
+        all
+    };
+    filtered.iter().flat_map(planes).map(f32::to_bits).collect()
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    for case in cases() {
+        let expected = bits(&filter_at(&case.params, &case.passes, &case.inputs(), Level::Portable).unwrap());
+        for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+            let got = bits(&filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap());
+            assert!(got == expected, "{level}");
+        }
+    }
+}
+
+#[test]
+fn every_number_of_threads_gives_the_same_bits() {
+    for case in cases() {
+        let run = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| bits(&case.fast()))
+        };
+        let expected = run(1);
+        assert!(run(2) == expected && run(5) == expected);
+    }
+}
+
+#[test]
+fn every_tile_size_gives_the_same_bits() {
+    for case in cases() {
+        let expected = bits(&case.fast());
+        for tile in [(16, 1), (32, 64), (128, 7)] {
+            let got = tiled::filter(&case.params, &case.passes, &case.inputs(), Level::best(), tile);
+            assert!(bits(&got) == expected, "{tile:?}");
+        }
+    }
+}
+
+#[test]
+fn passes_of_one_sweep_give_the_bits_of_each_alone() {
+    for case in cases() {
+        let together = case.fast();
+        for (pass, expected) in case.passes.iter().zip(&together) {
+            let alone = Case { passes: vec![*pass], ..case.clone() };
+            assert!(bits(&alone.fast()) == bits(std::slice::from_ref(expected)));
+        }
+    }
+}
+
+#[test]
+fn a_level_that_is_missing_is_refused() {
+    for level in Level::ALL.into_iter().filter(|level| !level.is_available()) {
+        let case = Case::random(3, 3, 1, &[pass(None, 1.0)], &[]);
+        let error = filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap_err();
+        assert_eq!(error, NlmError::LevelUnavailable { level });
+    }
+}
