@@ -12,7 +12,7 @@ use super::layout::{
     KINDS, LARGEST, Layout, MAX_BLOCK, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT,
 };
 use super::params::MAX_PATCH_RADIUS;
-use crate::simd::Simd;
+use crate::simd::{MAX_LANES, Simd};
 
 /// Exponent that makes a weight zero.
 pub(super) const PENALTY: f32 = -1e9;
@@ -67,7 +67,22 @@ pub(super) struct TileView<'a> {
     pub pixel: &'a [f32],
     pub sums: &'a mut [f32],
     pub columns: &'a mut [f32],
+    /// What the steps for one vector of pixels hand on, see [`LOCAL`].
+    pub local: &'a mut [f32],
     pub constants: Constants,
+}
+
+/// Vectors that the steps for one vector of pixels hand on, one for each offset of a block: exponents for both τ, then
+/// what moving each guide channel at p changes through p's own patch, then through q's. In memory and not in variables,
+/// because the compiler copies such large variables at every branch.
+pub(super) const LOCAL: usize = (KINDS + 3 + 3) * MAX_BLOCK * MAX_LANES;
+const OWN: usize = KINDS;
+const EXCHANGED: usize = KINDS + 3;
+
+/// Index of a vector of [`LOCAL`].
+#[inline(always)]
+fn local(kind: usize, offset: usize) -> usize {
+    (kind * MAX_BLOCK + offset) * MAX_LANES
 }
 
 /// Numbers that are the same for all tiles.
@@ -106,6 +121,8 @@ pub(super) struct Block {
     pub count: usize,
     /// Whether the neighbours are of the frame to filter.
     pub same_frame: bool,
+    /// Whether the derivative must look at p as a tap of a neighbour's patch.
+    pub near: bool,
 }
 
 impl Block {
@@ -129,6 +146,17 @@ unsafe fn at<S: Simd>(plane: &[f32], index: usize) -> S::F {
     debug_assert!(index + S::LANES <= plane.len(), "reads {index} of {}", plane.len());
     // SAFETY: as the caller vouches.
     unsafe { S::load(plane.as_ptr().add(index)) }
+}
+
+/// Reads the vector `i` values after `index` of `plane`, 0 ≤ `i` < [`MAX_BLOCK`]; several of one `index` share what they read.
+///
+/// # Safety
+/// As [`at`], with 2·`LANES` values at `index`.
+#[inline(always)]
+unsafe fn beside<S: Simd>(plane: &[f32], index: usize, i: usize) -> S::F {
+    debug_assert!(index + 2 * S::LANES <= plane.len(), "reads {index} of {}", plane.len());
+    // SAFETY: as the caller vouches.
+    unsafe { S::load_beside(plane.as_ptr().add(index), i) }
 }
 
 /// Writes a vector at `index` of `plane`.
@@ -366,32 +394,21 @@ unsafe fn accumulate<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &B
 unsafe fn vector<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block, place: Place) {
     // SAFETY: passed on unchanged.
     unsafe {
-        let limits = limits::<S, G>(tile, block, place);
-        let mut bends = [[S::splat(0.0); G]; 3];
-        let mut exchanged = [[S::splat(0.0); G]; 3];
-        let mut near = false;
+        limits::<S, G>(tile, block, place);
         if tile.constants.derivative {
-            bends = self::bends::<S, G>(tile, block, place);
-            let reach = tile.layout.patches[0] as isize;
-            near = block.same_frame
-                && !tile.constants.joint
-                && block.dy.abs() <= reach
-                && block.dx <= reach
-                && block.dx + G as isize > -reach;
-            if near {
-                exchanged = self::exchanged::<S, G>(tile, block, place);
+            bends::<S, G>(tile, block, place);
+            if block.near {
+                exchanged::<S, G>(tile, block, place);
             }
         }
         for k in 0..tile.passes.len() {
             let pass = tile.passes[k];
-            let limit = if pass.floor == 0 { &limits[0] } else { &limits[1] };
-            let bends = Bends { own: &bends, exchanged: &exchanged, near };
             match pass.patch {
-                0 => weigh::<S, G, 0>(tile, block, place, k, pass, limit, &bends),
-                1 => weigh::<S, G, 1>(tile, block, place, k, pass, limit, &bends),
-                2 => weigh::<S, G, 2>(tile, block, place, k, pass, limit, &bends),
-                3 => weigh::<S, G, 3>(tile, block, place, k, pass, limit, &bends),
-                _ => weigh::<S, G, NO_PATCH>(tile, block, place, k, pass, limit, &bends),
+                0 => weigh::<S, G, 0>(tile, block, place, k, pass),
+                1 => weigh::<S, G, 1>(tile, block, place, k, pass),
+                2 => weigh::<S, G, 2>(tile, block, place, k, pass),
+                3 => weigh::<S, G, 3>(tile, block, place, k, pass),
+                _ => weigh::<S, G, NO_PATCH>(tile, block, place, k, pass),
             }
         }
     }
@@ -402,98 +419,82 @@ unsafe fn vector<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block
 /// # Safety
 /// As [`pass`].
 #[inline(always)]
-unsafe fn limits<S: Simd, const G: usize>(
-    tile: &TileView<'_>,
-    block: &Block,
-    place: Place,
-) -> [[S::F; G]; KINDS] {
+unsafe fn limits<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block, place: Place) {
     let (layout, constants) = (tile.layout, tile.constants);
-    let two = constants.floor_count > 1;
     let center = if constants.largest_center { block.center() } else { usize::MAX };
     // SAFETY: the caller vouches for the instruction set and the indices.
     unsafe {
-        let mut limits = [[S::splat(0.0); G]; KINDS];
         for o in 0..G {
             let penalty = at::<S>(tile.area, layout.area_penalty() + place.area + o);
             let skip = o >= block.count || o == center;
-            limits[0][o] = if skip { S::splat(PENALTY) } else { penalty };
-        }
-        limits[1] = limits[0];
-        let mut channel = 0;
-        for &count in &layout.features {
-            let mut sums = [[S::splat(0.0); G]; KINDS];
-            let last = channel + count;
-            while channel < last {
-                let own = [0, 1, 2, 3].map(|kind| layout.pixel_feature(kind, channel) + place.pixel);
-                let p = at::<S>(tile.pixel, own[0]);
-                let negative = at::<S>(tile.pixel, own[1]);
-                let vp = S::sub(S::splat(0.0), negative);
-                let scales = [at::<S>(tile.pixel, own[2]), at::<S>(tile.pixel, own[3])];
-                let value = layout.area_feature(0, channel) + place.area;
-                let variance = layout.area_feature(1, channel) + place.area;
-                if constants.pair {
-                    let spread = layout.area_feature(2, channel) + place.area;
-                    for o in 0..G {
-                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
-                        let n = S::mul(n, S::splat(constants.pair_scale / count as f32));
-                        let dq = at::<S>(tile.area, spread + o);
-                        for i in 0..KINDS {
-                            let d = S::add(scales[i], S::max(dq, S::splat(constants.floors[i])));
-                            sums[i][o] = S::add(sums[i][o], S::div(n, d));
-                        }
-                    }
-                } else if two {
-                    for o in 0..G {
-                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
-                        sums[0][o] = S::fma(n, scales[0], sums[0][o]);
-                        sums[1][o] = S::fma(n, scales[1], sums[1][o]);
-                    }
-                } else {
-                    for o in 0..G {
-                        let n = excess::<S>(tile.area, value + o, variance + o, p, negative, vp);
-                        sums[0][o] = S::fma(n, scales[0], sums[0][o]);
-                    }
-                }
-                channel += 1;
-            }
-            for o in 0..G {
-                limits[0][o] = S::min(limits[0][o], sums[0][o]);
-                limits[1][o] = S::min(limits[1][o], sums[1][o]);
+            let limit = if skip { S::splat(PENALTY) } else { penalty };
+            put::<S>(tile.local, local(0, o), limit);
+            if constants.floor_count > 1 {
+                put::<S>(tile.local, local(1, o), limit);
             }
         }
-        limits
+        match (constants.pair, constants.floor_count > 1) {
+            (false, false) => features::<S, G, 1, false>(tile, place),
+            (false, true) => features::<S, G, 2, false>(tile, place),
+            (true, false) => features::<S, G, 1, true>(tile, place),
+            (true, true) => features::<S, G, 2, true>(tile, place),
+        }
     }
 }
 
-/// (f(p) − f(q))² − (v(p) + min(v(p), v(q))).
+/// Lowers the limits to what each feature allows, for `FLOORS` different τ.
 ///
 /// # Safety
 /// As [`pass`].
 #[inline(always)]
-unsafe fn excess<S: Simd>(
-    area: &[f32],
-    value: usize,
-    variance: usize,
-    p: S::F,
-    negative_vp: S::F,
-    vp: S::F,
-) -> S::F {
+unsafe fn features<S: Simd, const G: usize, const FLOORS: usize, const PAIR: bool>(
+    tile: &mut TileView<'_>,
+    place: Place,
+) {
+    let (layout, constants) = (tile.layout, tile.constants);
+    // Distances between the planes of one channel.
+    let area_kind = layout.area_feature(1, 0);
+    let pixel_kind = layout.pixel_feature(1, 0);
+    let (mut area, mut pixel) = (place.area, place.pixel);
     // SAFETY: the caller vouches for the instruction set and the indices.
     unsafe {
-        let d = S::sub(at::<S>(area, value), p);
-        let noise = S::sub(negative_vp, S::min(vp, at::<S>(area, variance)));
-        S::fma(d, d, noise)
+        for &count in &layout.features {
+            let mut sums = [[S::splat(0.0); G]; FLOORS];
+            for _ in 0..count {
+                let p = at::<S>(tile.pixel, pixel);
+                let negative = at::<S>(tile.pixel, pixel + pixel_kind);
+                let vp = S::sub(S::splat(0.0), negative);
+                let mut scales = [S::splat(0.0); FLOORS];
+                for i in 0..FLOORS {
+                    scales[i] = at::<S>(tile.pixel, pixel + (2 + i) * pixel_kind);
+                }
+                for o in 0..G {
+                    let d = S::sub(beside::<S>(tile.area, area, o), p);
+                    let vq = beside::<S>(tile.area, area + area_kind, o);
+                    // (f(p) − f(q))² − (v(p) + min(v(p), v(q)))
+                    let excess = S::fma(d, d, S::sub(negative, S::min(vp, vq)));
+                    for i in 0..FLOORS {
+                        if PAIR {
+                            let dq = beside::<S>(tile.area, area + 2 * area_kind, o);
+                            let both = S::add(scales[i], S::max(dq, S::splat(constants.floors[i])));
+                            let scaled = S::mul(excess, S::splat(constants.pair_scale / count as f32));
+                            sums[i][o] = S::add(sums[i][o], S::div(scaled, both));
+                        } else {
+                            sums[i][o] = S::fma(excess, scales[i], sums[i][o]);
+                        }
+                    }
+                }
+                area += layout.area.plane;
+                pixel += layout.pixel.plane;
+            }
+            for i in 0..FLOORS {
+                for o in 0..G {
+                    let limit = S::min(at::<S>(tile.local, local(i, o)), sums[i][o]);
+                    put::<S>(tile.local, local(i, o), limit);
+                }
+            }
+        }
     }
-}
-
-/// What moving the guide at p adds to a pair's patch sum, for each channel that is moved.
-struct Bends<'a, F, const G: usize> {
-    /// Through the centre of p's own patch.
-    own: &'a [[F; G]; 3],
-    /// Through p as a tap of q's patch; for pairs that are closer than the patch radius.
-    exchanged: &'a [[F; G]; 3],
-    /// Whether the block has such pairs.
-    near: bool,
 }
 
 /// Change of Δ² at the centre of the patches for each channel moved by its step (all at once: the sum, three times).
@@ -501,51 +502,49 @@ struct Bends<'a, F, const G: usize> {
 /// # Safety
 /// As [`pass`].
 #[inline(always)]
-unsafe fn bends<S: Simd, const G: usize>(tile: &TileView<'_>, block: &Block, place: Place) -> [[S::F; G]; 3] {
+unsafe fn bends<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block, place: Place) {
     let (layout, constants) = (tile.layout, tile.constants);
     let center = block.center();
     // SAFETY: the caller vouches for the instruction set and the indices.
     unsafe {
-        let mut out = [[S::splat(0.0); G]; 3];
         for c in 0..3 {
             let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
             let p = at::<S>(tile.here, value + place.here);
             let vp = at::<S>(tile.here, variance + place.here);
             let step = at::<S>(tile.pixel, layout.pixel_step(c) + place.pixel);
             for o in 0..G {
-                let q = at::<S>(tile.there, value + place.there + o);
-                let vq = at::<S>(tile.there, variance + place.there + o);
-                let bend = bend::<S>(S::sub(p, q), step, vp, vq, &constants);
-                out[c][o] = if o == center { S::splat(0.0) } else { bend };
+                let q = beside::<S>(tile.there, value + place.there, o);
+                let vq = beside::<S>(tile.there, variance + place.there, o);
+                put::<S>(tile.local, local(OWN + c, o), bend::<S>(S::sub(p, q), step, vp, vq, &constants));
+            }
+            if center < G {
+                put::<S>(tile.local, local(OWN + c, center), S::splat(0.0));
             }
         }
         if constants.joint {
             for o in 0..G {
-                out[0][o] = S::add(S::add(out[0][o], out[1][o]), out[2][o]);
+                let mut sum = at::<S>(tile.local, local(OWN, o));
+                sum = S::add(sum, at::<S>(tile.local, local(OWN + 1, o)));
+                sum = S::add(sum, at::<S>(tile.local, local(OWN + 2, o)));
+                for c in 0..3 {
+                    put::<S>(tile.local, local(OWN + c, o), sum);
+                }
             }
-            out[1] = out[0];
-            out[2] = out[0];
         }
-        out
     }
 }
 
-/// The same through p as a tap of q's patch: the pair (p − offset, p).
+/// The same through p as a tap of q's patch: the pair (p − offset, p). 0 for offsets beyond the patch radius.
 ///
 /// # Safety
-/// As [`pass`]; offsets beyond the patch radius are left out.
+/// As [`pass`].
 #[inline(always)]
-unsafe fn exchanged<S: Simd, const G: usize>(
-    tile: &TileView<'_>,
-    block: &Block,
-    place: Place,
-) -> [[S::F; G]; 3] {
+unsafe fn exchanged<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block, place: Place) {
     let (layout, constants) = (tile.layout, tile.constants);
     let reach = layout.patches[0] as isize;
     let center = block.center();
     // SAFETY: the caller vouches for the instruction set; the guide copies reach the patch radius beyond the tile.
     unsafe {
-        let mut out = [[S::splat(0.0); G]; 3];
         for c in 0..3 {
             let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
             let p = at::<S>(tile.here, value + place.here);
@@ -553,17 +552,18 @@ unsafe fn exchanged<S: Simd, const G: usize>(
             let step = at::<S>(tile.pixel, layout.pixel_step(c) + place.pixel);
             for o in 0..G {
                 let dx = block.dx + o as isize;
-                if dx.abs() > reach || o == center {
-                    continue;
+                let mut change = S::splat(0.0);
+                if dx.abs() <= reach && o != center {
+                    let shift = block.dy * layout.guide.pitch as isize + dx;
+                    let other = place.here.wrapping_add_signed(-shift);
+                    let a = at::<S>(tile.here, value + other);
+                    let va = at::<S>(tile.here, variance + other);
+                    // The square of u(a) − (u(p) + δ) is that of (u(p) − u(a)) + δ; the centre of this pair is a.
+                    change = bend::<S>(S::sub(p, a), step, va, vp, &constants);
                 }
-                let other = place.here.wrapping_add_signed(-(block.dy * layout.guide.pitch as isize + dx));
-                let a = at::<S>(tile.here, value + other);
-                let va = at::<S>(tile.here, variance + other);
-                // The square of u(a) − (u(p) + δ) is that of (u(p) − u(a)) + δ; the centre of this pair is a.
-                out[c][o] = bend::<S>(S::sub(p, a), step, va, vp, &constants);
+                put::<S>(tile.local, local(EXCHANGED + c, o), change);
             }
         }
-        out
     }
 }
 
@@ -610,8 +610,6 @@ unsafe fn weigh<S: Simd, const G: usize, const PATCH: usize>(
     place: Place,
     index: usize,
     pass: HotPass,
-    limit: &[S::F; G],
-    bends: &Bends<'_, S::F, G>,
 ) {
     let layout = tile.layout;
     let (plane, targets) = (layout.pixel.plane, layout.targets);
@@ -627,9 +625,9 @@ unsafe fn weigh<S: Simd, const G: usize, const PATCH: usize>(
                     + (pass.columns * MAX_BLOCK + o) * layout.columns.plane
                     + (layout.patches[0] - PATCH);
                 guided[o] = S::mul(patch_sum::<S, PATCH>(tile.columns, from), scale);
-                w[o] = weight::<S>(S::min(guided[o], limit[o]));
+                w[o] = weight::<S>(S::min(guided[o], at::<S>(tile.local, local(pass.floor, o))));
             } else {
-                w[o] = weight::<S>(limit[o]);
+                w[o] = weight::<S>(at::<S>(tile.local, local(pass.floor, o)));
             }
         }
         let extra = sums + targets * plane;
@@ -649,7 +647,7 @@ unsafe fn weigh<S: Simd, const G: usize, const PATCH: usize>(
             let from = layout.area_target(k) + place.area;
             let mut sum = at::<S>(tile.sums, sums + k * plane);
             for o in 0..G {
-                sum = S::fma(w[o], at::<S>(tile.area, from + o), sum);
+                sum = S::fma(w[o], beside::<S>(tile.area, from, o), sum);
             }
             put::<S>(tile.sums, sums + k * plane, sum);
         }
@@ -664,15 +662,16 @@ unsafe fn weigh<S: Simd, const G: usize, const PATCH: usize>(
             let mut moved_weight = at::<S>(tile.sums, extra + (MOVED_WEIGHT + c) * plane);
             let mut moved_largest = at::<S>(tile.sums, extra + (MOVED_LARGEST + c) * plane);
             for o in 0..G {
-                let d = S::sub(at::<S>(tile.there, value + place.there + o), p);
-                let mut bend = bends.own[c][o];
-                if bends.near {
+                let d = S::sub(beside::<S>(tile.there, value + place.there, o), p);
+                let mut bend = at::<S>(tile.local, local(OWN + c, o));
+                if block.near {
                     let distance = block.dy.abs().max((block.dx + o as isize).abs());
                     if distance <= PATCH as isize {
-                        bend = S::add(bend, bends.exchanged[c][o]);
+                        bend = S::add(bend, at::<S>(tile.local, local(EXCHANGED + c, o)));
                     }
                 }
-                let moved = weight::<S>(S::min(S::fma(bend, scale, guided[o]), limit[o]));
+                let limit = at::<S>(tile.local, local(pass.floor, o));
+                let moved = weight::<S>(S::min(S::fma(bend, scale, guided[o]), limit));
                 step = S::fma(w[o], d, step);
                 moved_step = S::fma(moved, d, moved_step);
                 moved_weight = S::add(moved_weight, moved);

@@ -1,6 +1,6 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{self, Block, Constants, HotPass, PENALTY, TileView};
+use super::hot::{self, Block, Constants, HotPass, LOCAL, PENALTY, TileView};
 use super::layout::{KINDS, LARGEST, Layout, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
 use super::naive::{EPSILON, LARGEST as LARGEST_SQUARE};
 use super::params::{Center, Denominator, Filtered, NlmInputs, NlmParams, Pass, Planes, Rule};
@@ -167,7 +167,8 @@ impl Scratch {
             + layout.area_size()
             + layout.pixel_size()
             + layout.sums(job.passes.len())
-            + layout.columns_size();
+            + layout.columns_size()
+            + LOCAL;
         // Room to align, and for the vectors that start on the last values.
         let memory = vec![0.0f32; planes + 64];
         // `align_offset` may give up and say usize::MAX; alignment is for speed only.
@@ -185,7 +186,8 @@ impl Job<'_> {
         let (there, memory) = memory.split_at_mut(other);
         let (pixel, memory) = memory.split_at_mut(layout.pixel_size());
         let (sums, memory) = memory.split_at_mut(layout.sums(self.passes.len()));
-        let (area, columns) = memory.split_at_mut(layout.area_size());
+        let (area, memory) = memory.split_at_mut(layout.area_size());
+        let (local, columns) = memory.split_at_mut(LOCAL);
         self.copy_guide(tile, &self.inputs.frame, here);
         self.fill_pixels(tile, pixel);
         sums.fill(0.0);
@@ -205,6 +207,7 @@ impl Job<'_> {
                 pixel,
                 sums,
                 columns,
+                local,
                 constants: self.constants,
             };
             self.search(&mut view, tile, t == 0);
@@ -316,10 +319,18 @@ impl Job<'_> {
             let mut dx = left;
             while dx <= right {
                 let count = ((right - dx + 1) as usize).min(self.group);
-                self.dispatch(view, &Block { rows: rows.clone(), dy, dx, count, same_frame });
+                let near = same_frame && self.near(dy, dx);
+                self.dispatch(view, &Block { rows: rows.clone(), dy, dx, count, same_frame, near });
                 dx += self.group as isize;
             }
         }
+    }
+
+    /// Whether some offset of a block is so small that p is a tap of its neighbour's patch, and that counts.
+    fn near(&self, dy: isize, dx: isize) -> bool {
+        let patch = self.layout.patches.first().map_or(-1, |&f| f as isize);
+        let (constants, last) = (&self.constants, dx + self.group as isize - 1);
+        constants.derivative && !constants.joint && dy.abs() <= patch && dx <= patch && last >= -patch
     }
 
     fn dispatch(&self, view: &mut TileView<'_>, block: &Block) {
