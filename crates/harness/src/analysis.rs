@@ -5,6 +5,7 @@ mod cells;
 mod compare;
 mod convergence;
 mod coverage;
+mod estimates;
 mod index;
 mod number;
 mod scenes;
@@ -35,6 +36,7 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record]) -> S
         bounds: bounds::bounds(&index),
         slopes: convergence::slopes(&index),
         comparisons: compare::comparisons(&index),
+        estimates: estimates::estimates(&index),
         warnings: Vec::new(),
     };
     summary.warnings = warnings::warnings(&index, &summary);

@@ -219,6 +219,7 @@ fn describe(row: &Row) -> RowContext {
             reference: card.citation.text.into(),
             params: row.method.params.clone(),
             notes: card.notes.clone(),
+            estimates_error: card.claims.estimates_error,
         },
         consistent: card.claims.consistent,
     }

@@ -17,7 +17,7 @@ pub use builtin::{BuiltinStudy, builtin_studies};
 pub use shot::{Maps, Shot};
 
 /// Kinds of plots that a study can choose from.
-pub const FIGURES: [&str; 4] = ["convergence", "speed", "coverage", "bounds"];
+pub const FIGURES: [&str; 5] = ["convergence", "speed", "coverage", "bounds", "estimates"];
 
 /// What a study asks, on which scenes, at how many samples, of which methods. A file, not code.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

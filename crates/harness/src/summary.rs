@@ -66,6 +66,9 @@ pub struct Summary {
     pub slopes: Vec<SlopeSummary>,
     /// Comparisons per scene × spp × metric.
     pub comparisons: Vec<Comparison>,
+    /// Methods' estimates of their own error beside the measured one, per scene × spp × row × pixel class.
+    #[serde(default)]
+    pub estimates: Vec<EstimateSummary>,
     /// Statements that a reader must see first: marked cells, violated enclosures, short references.
     pub warnings: Vec<String>,
 }
@@ -207,6 +210,9 @@ pub struct MethodSummary {
     pub params: Value,
     /// Notes of the card.
     pub notes: Vec<String>,
+    /// Whether its card claims an estimate of its own error.
+    #[serde(default)]
+    pub estimates_error: bool,
 }
 
 /// Averages over the replicates of one scene × spp × row.
@@ -317,6 +323,43 @@ pub struct BoundSummary {
     pub verdict: String,
     /// Why the number must be read with care, if so.
     pub mark: Option<String>,
+}
+
+/// A method's estimate of its own squared error beside the measured one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateSummary {
+    /// Scene id.
+    pub scene: String,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Row label.
+    pub label: String,
+    /// Pixel class or `all`.
+    pub class: String,
+    /// Mean estimated squared error; may be negative.
+    pub estimated: Interval,
+    /// Mean measured squared error, the reference's noise taken out.
+    pub measured: Interval,
+    /// Estimated over measured (geometric mean over replicates), or estimated − measured where `is_ratio` is false.
+    pub effect: Interval,
+    /// Whether `effect` is a ratio: all means of all replicates are positive.
+    pub is_ratio: bool,
+    /// `calibrated` (the interval contains equality), `too optimistic` (estimates too small an error), `too pessimistic`, or
+    /// `undecided` without an interval.
+    pub verdict: String,
+    /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
+    pub deciles: Vec<EstimateBin>,
+    /// Pixel-channels whose estimate is not finite, over all replicates.
+    pub non_finite: u64,
+}
+
+/// One bin of pixel-channels by rank of the estimate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateBin {
+    /// Mean estimated squared error.
+    pub estimated: Interval,
+    /// Mean measured squared error.
+    pub measured: Interval,
 }
 
 /// Convergence of one row on one scene.

@@ -2,8 +2,10 @@
 
 mod cache;
 mod common;
+mod estimates;
 mod import;
 mod outcomes;
+mod recorded;
 mod resume;
 mod shots;
 mod statistics;

@@ -1,6 +1,7 @@
 //! The page's contents as plain texts, in the order of the template.
 
 mod claims;
+mod estimates;
 mod headline;
 mod slopes;
 mod table;
@@ -12,6 +13,7 @@ use serde::Serialize;
 use crate::format;
 use crate::index::Index;
 pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
+pub(crate) use estimates::EstimatesView;
 pub(crate) use headline::{Answer, Board, SceneCard};
 pub(crate) use slopes::SlopeTable;
 pub(crate) use table::SceneTable;
@@ -40,6 +42,7 @@ pub(crate) struct Page {
     pub coverage: Vec<CoverageView>,
     pub bounds: Vec<BoundsView>,
     pub enclosures: Option<EnclosureView>,
+    pub estimates: Vec<EstimatesView>,
     pub slopes: Vec<SlopeTable>,
     pub methods: Vec<MethodView>,
     pub metrics: Vec<MetricInfo>,
@@ -113,6 +116,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         coverage: summary.scenes.iter().filter_map(|s| claims::coverage(index, s)).collect(),
         bounds: summary.scenes.iter().filter_map(|s| claims::bounds(index, s)).collect(),
         enclosures: claims::enclosures(index),
+        estimates: summary.scenes.iter().filter_map(|s| estimates::estimates(index, s)).collect(),
         slopes: slopes::tables(index),
         methods: methods(index),
         metrics: study.metrics.clone(),
