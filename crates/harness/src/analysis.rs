@@ -8,6 +8,7 @@ mod coverage;
 mod estimates;
 mod index;
 mod number;
+mod paper;
 mod scenes;
 mod series;
 mod warnings;
@@ -36,6 +37,7 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record]) -> S
         bounds: bounds::bounds(&index),
         slopes: convergence::slopes(&index),
         comparisons: compare::comparisons(&index),
+        paper: paper::paper(&index),
         estimates: estimates::estimates(&index),
         warnings: Vec::new(),
     };

@@ -31,8 +31,8 @@ pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::reanalyse;
 pub use run::{StudyRun, run};
 pub use study::{
-    BuiltinStudy, FIGURES, Family, Maps, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot,
-    Study, Timing, builtin_studies,
+    BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio, ReferenceSpec, Replicates,
+    SceneSource, SceneSpec, Shot, Study, Timing, builtin_studies,
 };
 
 /// The id of the baseline: the input itself.

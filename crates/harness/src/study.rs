@@ -1,5 +1,6 @@
 mod builtin;
 mod check;
+mod compare;
 mod folder;
 mod of_scene;
 mod parse;
@@ -14,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use builtin::{BuiltinStudy, builtin_studies};
+pub use compare::{PaperComparison, PaperRatio};
 pub use shot::{Maps, Shot};
 
 /// Kinds of plots that a study can choose from.
@@ -74,6 +76,9 @@ pub struct Study {
     pub probe: Option<[f64; 2]>,
     /// Which of [`FIGURES`] the report draws; all if empty. Tables are always there.
     pub figures: Vec<String>,
+    /// What the source work reports about rows of this study.
+    #[serde(default)]
+    pub compare: Vec<PaperComparison>,
 }
 
 /// Replicates per level.

@@ -66,6 +66,9 @@ pub struct Summary {
     pub slopes: Vec<SlopeSummary>,
     /// Comparisons per scene × spp × metric.
     pub comparisons: Vec<Comparison>,
+    /// Ratios of errors beside those that the source work reports.
+    #[serde(default)]
+    pub paper: Vec<PaperResult>,
     /// Methods' estimates of their own error beside the measured one, per scene × spp × row × pixel class.
     #[serde(default)]
     pub estimates: Vec<EstimateSummary>,
@@ -323,6 +326,37 @@ pub struct BoundSummary {
     pub verdict: String,
     /// Why the number must be read with care, if so.
     pub mark: Option<String>,
+}
+
+/// A ratio of two rows' errors beside the one that the source work reports.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PaperResult {
+    /// What is compared, for people.
+    pub what: String,
+    /// Scene id.
+    pub scene: String,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Label of the row whose error is above the fraction line.
+    pub row: String,
+    /// Label of the row whose error is below it.
+    pub over: String,
+    /// Metric id.
+    pub metric: String,
+    /// Our ratio: geometric mean over paired replicates; absent where `reason` says why.
+    pub ours: Option<Interval>,
+    /// The source's ratio, from and to; equal for one number.
+    pub paper: [f64; 2],
+    /// Where the source says it.
+    pub source: String,
+    /// `agrees` (our interval meets the source's range), `larger gain than the paper's`, `smaller gain than the paper's`,
+    /// `larger loss than the paper's` and `smaller loss than the paper's` where the source's ratio is not below 1,
+    /// `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without an interval,
+    /// `no number` without a ratio.
+    pub verdict: String,
+    /// Why there is no ratio.
+    #[serde(default)]
+    pub reason: Option<String>,
 }
 
 /// A method's estimate of its own squared error beside the measured one.

@@ -60,6 +60,7 @@ fn every_section_and_plot_is_written() {
     assert!(files.unreadable.is_empty());
     for id in [
         "answers",
+        "paper",
         "tables",
         "convergence",
         "speed",
@@ -83,6 +84,10 @@ fn every_section_and_plot_is_written() {
         "the reference has only 8 times the samples",
         "unproven",
         "0.999998",
+        "0.0082 to 0.36",
+        "larger gain than the paper&#x27;s",
+        "`virtual-flash` did not run here",
+        "rMSE of virtual-flash over rMSE of mc",
         "too optimistic",
         "3 values without a finite estimate are left out",
         "difference −0.0010",
@@ -144,6 +149,8 @@ fn markup_in_names_is_shown_and_not_obeyed() {
     study.study.question = HOSTILE.into();
     study.warnings.push(HOSTILE.into());
     study.skipped[0].reason = HOSTILE.into();
+    study.paper[0].what = HOSTILE.into();
+    study.paper[0].source = HOSTILE.into();
     let dir = tempfile::tempdir().unwrap();
     let (files, html) = written(dir.path(), &study);
     assert!(!html.contains("<script>alert"), "the name is escaped everywhere");
@@ -255,6 +262,7 @@ fn a_study_without_results_still_has_a_page() {
     empty.coverage.clear();
     empty.bounds.clear();
     empty.estimates.clear();
+    empty.paper.clear();
     empty.slopes.clear();
     empty.comparisons.clear();
     empty.skipped.clear();

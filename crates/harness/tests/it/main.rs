@@ -5,6 +5,7 @@ mod common;
 mod estimates;
 mod import;
 mod outcomes;
+mod paper;
 mod recorded;
 mod resume;
 mod shots;

@@ -3,6 +3,7 @@
 mod claims;
 mod estimates;
 mod headline;
+mod paper;
 mod slopes;
 mod table;
 mod words;
@@ -15,6 +16,7 @@ use crate::index::Index;
 pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
 pub(crate) use estimates::EstimatesView;
 pub(crate) use headline::{Answer, Board, SceneCard};
+pub(crate) use paper::PaperRow;
 pub(crate) use slopes::SlopeTable;
 pub(crate) use table::SceneTable;
 
@@ -34,6 +36,7 @@ pub(crate) struct Page {
     pub answers: Vec<Answer>,
     pub board: Board,
     pub cards: Vec<SceneCard>,
+    pub paper: Vec<PaperRow>,
     pub metric: String,
     pub uncertainty: String,
     pub levels: Vec<Level>,
@@ -108,6 +111,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         answers: headline::answers(index),
         board: headline::board(index),
         cards: headline::cards(index),
+        paper: paper::paper(index),
         metric: index.metric_name(&study.primary_metric),
         uncertainty: words::uncertainty(summary),
         levels: study.spp.iter().map(|&spp| Level { spp, chosen: Some(spp) == chosen }).collect(),
