@@ -12,6 +12,7 @@ mod analysis;
 mod cache;
 mod context;
 mod error;
+mod flicker;
 mod machine;
 mod measure;
 mod metric;

@@ -5,6 +5,7 @@ mod folder;
 mod of_scene;
 mod parse;
 mod plain;
+mod sequence;
 mod shot;
 
 use std::path::PathBuf;
@@ -135,6 +136,9 @@ pub struct SceneSpec {
     /// Which moment of it is shown, and how its light is carried; for rendered scenes.
     #[serde(default)]
     pub shot: Shot,
+    /// Name of the sequence that it is a frame of, in the order of [`Shot::frame`]; flicker is measured over it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<String>,
 }
 
 /// Where frames come from.

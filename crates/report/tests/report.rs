@@ -68,6 +68,7 @@ fn every_section_and_plot_is_written() {
         "coverage",
         "bounds",
         "estimates",
+        "flicker",
         "slopes",
         "methods",
     ] {
@@ -88,6 +89,9 @@ fn every_section_and_plot_is_written() {
         "larger gain than the paper&#x27;s",
         "`virtual-flash` did not run here",
         "rMSE of virtual-flash over rMSE of mc",
+        "Sequence turning, 3 frames",
+        "Over that of mc",
+        "0.00012 was subtracted",
         "too optimistic",
         "3 values without a finite estimate are left out",
         "difference −0.0010",
@@ -150,6 +154,7 @@ fn markup_in_names_is_shown_and_not_obeyed() {
     study.warnings.push(HOSTILE.into());
     study.skipped[0].reason = HOSTILE.into();
     study.paper[0].what = HOSTILE.into();
+    study.flicker[0].sequence = HOSTILE.into();
     study.paper[0].source = HOSTILE.into();
     let dir = tempfile::tempdir().unwrap();
     let (files, html) = written(dir.path(), &study);
@@ -262,6 +267,7 @@ fn a_study_without_results_still_has_a_page() {
     empty.coverage.clear();
     empty.bounds.clear();
     empty.estimates.clear();
+    empty.flicker.clear();
     empty.paper.clear();
     empty.slopes.clear();
     empty.comparisons.clear();

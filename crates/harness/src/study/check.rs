@@ -6,6 +6,7 @@ use noisefloor_frame::{Reference, Sampling};
 
 use crate::error::{HarnessError, Place};
 use crate::study::compare::check_comparisons;
+use crate::study::sequence::check_sequences;
 use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
 
 /// Where each part of a study stands in its file.
@@ -101,6 +102,7 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
         return wrong("figures", key("figures"), quoted(bad), &FIGURES.join(", "));
     }
     check_scenes(study, lines)?;
+    check_sequences(study, lines)?;
     check_rows(study, lines)?;
     check_comparisons(study, lines)
 }

@@ -132,6 +132,7 @@ struct RawScene {
     integrator: Integrator,
     photons: Option<PhotonSettings>,
     maps: Option<Maps>,
+    sequence: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -259,8 +260,10 @@ impl RawScene {
             photons: self.photons,
             maps: self.maps.unwrap_or_default(),
         };
-        if !rendered && shot != Shot::default() {
-            let allowed = "no `frame`, `orbit_degrees`, `integrator`, `photons` or `maps`: they are for scenes that are rendered";
+        // A sequence of anything has an order.
+        let moment = if self.sequence.is_some() { Shot { frame: 0, ..shot } } else { shot };
+        if !rendered && moment != Shot::default() {
+            let allowed = "no `frame` (but as the place in a `sequence`), `orbit_degrees`, `integrator`, `photons` or `maps`: they are for scenes that are rendered";
             return Err(wrong("not rendered", allowed));
         }
         if self.maps.is_some() && shot.photons().is_none() {
@@ -268,6 +271,6 @@ impl RawScene {
             return Err(wrong("`maps` without photon maps", allowed));
         }
         let replicates = self.replicates.map(Into::into);
-        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot })
+        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot, sequence: self.sequence })
     }
 }

@@ -75,7 +75,7 @@ impl Denoiser for Blur {
     }
 }
 
-/// The input, with `scale` times its variance as the estimate of its squared error: unbiased at 1.
+/// The input plus an offset, with `scale` times its variance as the estimate of its squared error: unbiased at 1.
 struct Judge(JudgeParams);
 
 #[derive(Clone, Serialize, Deserialize)]
@@ -84,11 +84,12 @@ struct JudgeParams {
     scale: f32,
     silent: bool,
     flat: bool,
+    offset: f32,
 }
 
 impl Default for JudgeParams {
     fn default() -> Self {
-        Self { scale: 1.0, silent: false, flat: false }
+        Self { scale: 1.0, silent: false, flat: false, offset: 0.0 }
     }
 }
 
@@ -96,6 +97,7 @@ const JUDGE_PARAMS: &[ParamDoc] = &[
     ParamDoc { name: "scale", range: "any number", about: "estimate over variance" },
     ParamDoc { name: "silent", range: "true or false", about: "claims an estimate and gives none" },
     ParamDoc { name: "flat", range: "true or false", about: "gives an estimate of one channel" },
+    ParamDoc { name: "offset", range: "any number", about: "added to the input" },
 ];
 
 impl Denoiser for Judge {
@@ -109,7 +111,7 @@ impl Denoiser for Judge {
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         input.check(&self.card())?;
         let color = &input.target.color;
-        let mut output = Output::from_image(color.mean.clone());
+        let mut output = Output::from_image(color.mean.map(|v| v + self.0.offset));
         let variance = color.variance.as_ref().filter(|_| !self.0.silent);
         output.error_estimate = variance.map(|v| v.mean_variance().map(|v| self.0.scale * v));
         if self.0.flat {

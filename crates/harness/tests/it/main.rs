@@ -3,6 +3,7 @@
 mod cache;
 mod common;
 mod estimates;
+mod flicker;
 mod import;
 mod outcomes;
 mod paper;

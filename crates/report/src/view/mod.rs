@@ -2,6 +2,7 @@
 
 mod claims;
 mod estimates;
+mod flicker;
 mod headline;
 mod paper;
 mod slopes;
@@ -15,6 +16,7 @@ use crate::format;
 use crate::index::Index;
 pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
 pub(crate) use estimates::EstimatesView;
+pub(crate) use flicker::FlickerView;
 pub(crate) use headline::{Answer, Board, SceneCard};
 pub(crate) use paper::PaperRow;
 pub(crate) use slopes::SlopeTable;
@@ -46,6 +48,7 @@ pub(crate) struct Page {
     pub bounds: Vec<BoundsView>,
     pub enclosures: Option<EnclosureView>,
     pub estimates: Vec<EstimatesView>,
+    pub flicker: Vec<FlickerView>,
     pub slopes: Vec<SlopeTable>,
     pub methods: Vec<MethodView>,
     pub metrics: Vec<MetricInfo>,
@@ -121,6 +124,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         bounds: summary.scenes.iter().filter_map(|s| claims::bounds(index, s)).collect(),
         enclosures: claims::enclosures(index),
         estimates: summary.scenes.iter().filter_map(|s| estimates::estimates(index, s)).collect(),
+        flicker: flicker::flicker(index),
         slopes: slopes::tables(index),
         methods: methods(index),
         metrics: study.metrics.clone(),
