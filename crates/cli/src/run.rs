@@ -12,7 +12,7 @@ use crate::args::Run;
 use crate::context::{Context, default_cache, use_threads};
 use crate::progress::bar;
 use crate::shot::{is_gltf, shot, shot_command};
-use crate::table::summary_table;
+use crate::table::{paper_table, summary_table};
 
 pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
     use_threads(args.threads)?;
@@ -39,6 +39,10 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
     let files = noisefloor_report::write_report(&out, &summary)?;
     if !args.quiet {
         print!("{}", summary_table(&summary));
+        let paper = paper_table(&summary);
+        if !paper.is_empty() {
+            print!("\n{paper}");
+        }
         println!("\nreport: {}", files.index.display());
     }
     fail_on_violations(&summary)

@@ -1,6 +1,6 @@
 //! Plain text tables, columns aligned by character count.
 
-use noisefloor_harness::summary::{Interval, Summary};
+use noisefloor_harness::summary::{Interval, PaperResult, Summary};
 
 /// The short table that ends a run: the primary metric of every row at the top level of every scene.
 pub fn summary_table(summary: &Summary) -> String {
@@ -50,6 +50,34 @@ pub fn summary_table(summary: &Summary) -> String {
         out.push_str(&format!("\n{}\n", skipped.join("\n")));
     }
     out
+}
+
+/// Our ratios beside the source work's; empty if the study compares nothing with a source.
+pub fn paper_table(summary: &Summary) -> String {
+    if summary.paper.is_empty() {
+        return String::new();
+    }
+    let heads = ["beside the source work", "scene", "spp", "ours", "paper", "in words"];
+    let mut rows: Vec<Vec<String>> = vec![heads.map(String::from).into()];
+    rows.extend(summary.paper.iter().map(|r| {
+        let [low, high] = r.paper;
+        let paper = if low == high { low.to_string() } else { format!("{low} to {high}") };
+        vec![r.what.clone(), r.scene.clone(), r.spp.to_string(), ratio(r), paper, words(r)]
+    }));
+    aligned(&rows)
+}
+
+/// Ratios have lopsided intervals: both ends.
+fn ratio(r: &PaperResult) -> String {
+    match r.ours.as_ref().map(|ours| (number(ours.value), ours.low, ours.high)) {
+        Some((value, Some(low), Some(high))) => format!("{value} [{}, {}]", number(low), number(high)),
+        Some((value, ..)) => value,
+        None => "–".into(),
+    }
+}
+
+fn words(r: &PaperResult) -> String {
+    r.reason.as_ref().map_or_else(|| r.verdict.clone(), |reason| format!("{}: {reason}", r.verdict))
 }
 
 fn with_interval(interval: &Interval) -> String {
@@ -106,6 +134,40 @@ mod tests {
     fn columns_line_up() {
         let rows = [vec!["é".into(), "1".into()], vec!["long".into(), "12345".into()]];
         assert_eq!(aligned(&rows), "é         1\nlong  12345\n");
+    }
+
+    #[test]
+    fn a_ratio_shows_both_ends_and_a_missing_one_its_reason() {
+        let mut result = PaperResult {
+            what: "a over b".into(),
+            scene: "nave".into(),
+            spp: 32,
+            row: "a".into(),
+            over: "b".into(),
+            metric: "mse".into(),
+            ours: Some(Interval {
+                value: 0.25,
+                standard_error: None,
+                low: Some(0.125),
+                high: Some(0.5),
+                confidence: 0.95,
+                n: 4,
+                source: noisefloor_harness::summary::Source::Replicates,
+                below: None,
+            }),
+            paper: [0.3, 0.3],
+            source: "Fig. 7".into(),
+            verdict: "agrees".into(),
+            reason: None,
+        };
+        assert_eq!((ratio(&result).as_str(), words(&result).as_str()), ("0.2500 [0.1250, 0.5000]", "agrees"));
+        result.ours = None;
+        result.verdict = "no number".into();
+        result.reason = Some("`b` did not run here".into());
+        assert_eq!(
+            (ratio(&result).as_str(), words(&result).as_str()),
+            ("–", "no number: `b` did not run here")
+        );
     }
 
     #[test]

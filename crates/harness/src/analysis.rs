@@ -5,11 +5,16 @@ mod cells;
 mod compare;
 mod convergence;
 mod coverage;
+mod estimates;
+mod flicker;
 mod index;
 mod number;
+mod paper;
 mod scenes;
 mod series;
 mod warnings;
+
+use std::path::Path;
 
 use crate::context::Context;
 use crate::machine;
@@ -20,8 +25,9 @@ use index::Index;
 
 pub use warnings::violations;
 
-/// Analyses the finished cells of a study, however many there are.
-pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record]) -> Summary {
+/// Analyses the finished cells of a study, however many there are; their images are looked for in its folder.
+pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root: &Path) -> Summary {
+    let sequences = crate::flicker::measure(study, context, records, root);
     let index = Index::new(study, context, records);
     let mut summary = Summary {
         schema: SUMMARY_SCHEMA,
@@ -35,9 +41,13 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record]) -> S
         bounds: bounds::bounds(&index),
         slopes: convergence::slopes(&index),
         comparisons: compare::comparisons(&index),
+        paper: paper::paper(&index),
+        estimates: estimates::estimates(&index),
+        flicker: flicker::flicker(&index, &sequences.measured),
         warnings: Vec::new(),
     };
     summary.warnings = warnings::warnings(&index, &summary);
+    summary.warnings.extend(sequences.problems);
     summary
 }
 

@@ -12,6 +12,7 @@ mod analysis;
 mod cache;
 mod context;
 mod error;
+mod flicker;
 mod machine;
 mod measure;
 mod metric;
@@ -31,8 +32,8 @@ pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::reanalyse;
 pub use run::{StudyRun, run};
 pub use study::{
-    BuiltinStudy, FIGURES, Family, Maps, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot,
-    Study, Timing, builtin_studies,
+    BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio, ReferenceSpec, Replicates,
+    SceneSource, SceneSpec, Shot, Study, Timing, builtin_studies,
 };
 
 /// The id of the baseline: the input itself.

@@ -1,6 +1,7 @@
 //! What is counted against the truth beside the metrics: coverage of intervals, violations of bounds, enclosures.
 
 mod blocks;
+mod estimate;
 mod ratio;
 
 use noisefloor_denoiser::Claim;

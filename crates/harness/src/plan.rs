@@ -37,7 +37,9 @@ impl Plan {
         let rows = rows(study, registry)?;
         let recorded = recorded(&rows);
         let scenes = study.scenes.iter().map(|spec| Scene::open(study, spec, size, &recorded));
-        Ok(Self { scenes: scenes.collect::<Result<_, _>>()?, rows })
+        let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+        same_sizes(study, &scenes)?;
+        Ok(Self { scenes, rows })
     }
 
     /// Content hash of all that determines the numbers of a cell.
@@ -61,6 +63,24 @@ impl Plan {
 /// Diagnostics are kept for one replicate at the levels that the viewer shows.
 pub(crate) fn wants_diagnostics(study: &Study, frame: &FrameSpec) -> bool {
     frame.replicate == 0 && (study.viewer_spp.is_empty() || study.viewer_spp.contains(&frame.spp))
+}
+
+/// Frames of a sequence are compared pixel by pixel.
+fn same_sizes(study: &Study, scenes: &[Scene]) -> Result<(), HarnessError> {
+    for (name, frames) in study.sequences() {
+        let of_sequence = scenes.iter().filter(|scene| frames.iter().any(|frame| frame.id == scene.id));
+        let sizes: BTreeSet<(usize, usize)> = of_sequence.map(|s| (s.width, s.height)).collect();
+        if sizes.len() > 1 {
+            let told: Vec<String> = sizes.iter().map(|(w, h)| format!("{w}×{h}")).collect();
+            return Err(HarnessError::Field {
+                place: Place { file: format!("study `{}`", study.name), line: None },
+                field: format!("sequence `{name}`: size"),
+                value: told.join(" and "),
+                allowed: "one size for all frames".into(),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn rows(study: &Study, registry: &Registry) -> Result<Vec<Row>, HarnessError> {

@@ -43,7 +43,7 @@ pub fn reanalyse(dir: &Path, recompute: bool) -> Result<Summary, HarnessError> {
         }
         records.replace(all)?;
     }
-    let summary = analyse(&study, &context, records.all());
+    let summary = analyse(&study, &context, records.all(), dir);
     write_json(&layout.summary(), &summary)?;
     Ok(summary)
 }

@@ -85,6 +85,9 @@ pub struct Record {
     /// Worst ratio |D−x̄| / (half-width + rounding allowance) per enclosure claim; at most 1 if it held.
     #[serde(default)]
     pub enclosures: Vec<EnclosureCheck>,
+    /// The method's estimate of its own squared error beside the measured one; absent if its output has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error_estimate: Option<EstimateCheck>,
     /// Pixels replaced or counted as non-finite in the input and output.
     #[serde(default)]
     pub non_finite: NonFinite,
@@ -101,6 +104,43 @@ pub struct Record {
     /// Diagnostic images, name to path relative to the study's folder.
     #[serde(default)]
     pub diagnostics: BTreeMap<String, String>,
+}
+
+/// A method's estimate of its own squared error beside the squared error that was measured.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateCheck {
+    /// Over the image.
+    pub all: EstimateMeans,
+    /// Pixel class to the same over its pixels; classes without pixels are absent.
+    pub classes: BTreeMap<String, EstimateMeans>,
+    /// The same over ten bins of pixel-channels by rank of the estimate, lowest first; fewer bins if there are fewer
+    /// pixel-channels.
+    pub deciles: Vec<EstimateMeans>,
+    /// Pixel-channels left out because the estimate is not finite there.
+    pub non_finite: u64,
+    /// Standard error of the logarithm of estimated over measured within this one image, over blocks of about 32×32
+    /// pixels; only when the study has one replicate and both are positive.
+    #[serde(default)]
+    pub within_se: Option<f64>,
+}
+
+/// Means over some pixel-channels, in squared radiance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct EstimateMeans {
+    /// Pixel-channels.
+    pub count: u64,
+    /// Mean of the estimate; may be negative, because an unbiased estimate keeps its sign.
+    pub estimated: f64,
+    /// Mean of the measured squared error, the reference's noise taken out as in `mse`; may be negative.
+    pub measured: f64,
+}
+
+impl EstimateMeans {
+    /// Estimated over measured: below 1 is too optimistic. `None` unless both are positive.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        (self.estimated > 0.0 && self.measured > 0.0).then(|| self.estimated / self.measured)
+    }
 }
 
 /// Non-finite values met.

@@ -94,7 +94,7 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     order(&mut records, study, &plan)?;
 
     request.observer.stage(&Stage::Analysis);
-    let summary = analyse(study, &context, records.all());
+    let summary = analyse(study, &context, records.all(), layout.root());
     write_json(&layout.summary(), &summary)?;
     Ok(summary)
 }
@@ -219,6 +219,7 @@ fn describe(row: &Row) -> RowContext {
             reference: card.citation.text.into(),
             params: row.method.params.clone(),
             notes: card.notes.clone(),
+            estimates_error: card.claims.estimates_error,
         },
         consistent: card.claims.consistent,
     }

@@ -154,7 +154,10 @@ fn synthetic(
         None => scene.clone(),
     };
     let description = serde_json::to_value(&scene).unwrap_or_default();
-    let frames = frame_specs(study, spec, &description, |spp, seed| {
+    // Frames of a sequence have random numbers of their own.
+    let frame = spec.shot.frame;
+    let identity = if frame == 0 { description.clone() } else { json!([description, frame]) };
+    let frames = frame_specs(study, spec, &identity, |spp, seed| {
         key_of(&json!({
             "synthetic": description, "version": env!("CARGO_PKG_VERSION"), "spp": spp, "seed": seed
         }))

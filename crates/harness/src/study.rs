@@ -1,9 +1,11 @@
 mod builtin;
 mod check;
+mod compare;
 mod folder;
 mod of_scene;
 mod parse;
 mod plain;
+mod sequence;
 mod shot;
 
 use std::path::PathBuf;
@@ -14,10 +16,11 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 pub use builtin::{BuiltinStudy, builtin_studies};
+pub use compare::{PaperComparison, PaperRatio};
 pub use shot::{Maps, Shot};
 
 /// Kinds of plots that a study can choose from.
-pub const FIGURES: [&str; 4] = ["convergence", "speed", "coverage", "bounds"];
+pub const FIGURES: [&str; 5] = ["convergence", "speed", "coverage", "bounds", "estimates"];
 
 /// What a study asks, on which scenes, at how many samples, of which methods. A file, not code.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,6 +77,9 @@ pub struct Study {
     pub probe: Option<[f64; 2]>,
     /// Which of [`FIGURES`] the report draws; all if empty. Tables are always there.
     pub figures: Vec<String>,
+    /// What the source work reports about rows of this study.
+    #[serde(default)]
+    pub compare: Vec<PaperComparison>,
 }
 
 /// Replicates per level.
@@ -130,6 +136,9 @@ pub struct SceneSpec {
     /// Which moment of it is shown, and how its light is carried; for rendered scenes.
     #[serde(default)]
     pub shot: Shot,
+    /// Name of the sequence that it is a frame of, in the order of [`Shot::frame`]; flicker is measured over it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sequence: Option<String>,
 }
 
 /// Where frames come from.

@@ -66,6 +66,15 @@ pub struct Summary {
     pub slopes: Vec<SlopeSummary>,
     /// Comparisons per scene × spp × metric.
     pub comparisons: Vec<Comparison>,
+    /// Ratios of errors beside those that the source work reports.
+    #[serde(default)]
+    pub paper: Vec<PaperResult>,
+    /// Methods' estimates of their own error beside the measured one, per scene × spp × row × pixel class.
+    #[serde(default)]
+    pub estimates: Vec<EstimateSummary>,
+    /// Errors that change from frame to frame, per sequence × spp × row.
+    #[serde(default)]
+    pub flicker: Vec<FlickerSummary>,
     /// Statements that a reader must see first: marked cells, violated enclosures, short references.
     pub warnings: Vec<String>,
 }
@@ -207,6 +216,9 @@ pub struct MethodSummary {
     pub params: Value,
     /// Notes of the card.
     pub notes: Vec<String>,
+    /// Whether its card claims an estimate of its own error.
+    #[serde(default)]
+    pub estimates_error: bool,
 }
 
 /// Averages over the replicates of one scene × spp × row.
@@ -317,6 +329,99 @@ pub struct BoundSummary {
     pub verdict: String,
     /// Why the number must be read with care, if so.
     pub mark: Option<String>,
+}
+
+/// A ratio of two rows' errors beside the one that the source work reports.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PaperResult {
+    /// What is compared, for people.
+    pub what: String,
+    /// Scene id.
+    pub scene: String,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Label of the row whose error is above the fraction line.
+    pub row: String,
+    /// Label of the row whose error is below it.
+    pub over: String,
+    /// Metric id.
+    pub metric: String,
+    /// Our ratio: geometric mean over paired replicates; absent where `reason` says why.
+    pub ours: Option<Interval>,
+    /// The source's ratio, from and to; equal for one number.
+    pub paper: [f64; 2],
+    /// Where the source says it.
+    pub source: String,
+    /// `agrees` (our interval meets the source's range), `larger gain than the paper's`, `smaller gain than the paper's`,
+    /// `larger loss than the paper's` and `smaller loss than the paper's` where the source's ratio is not below 1,
+    /// `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without an interval,
+    /// `no number` without a ratio.
+    pub verdict: String,
+    /// Why there is no ratio.
+    #[serde(default)]
+    pub reason: Option<String>,
+}
+
+/// A method's estimate of its own squared error beside the measured one.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateSummary {
+    /// Scene id.
+    pub scene: String,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Row label.
+    pub label: String,
+    /// Pixel class or `all`.
+    pub class: String,
+    /// Mean estimated squared error; may be negative.
+    pub estimated: Interval,
+    /// Mean measured squared error, the reference's noise taken out.
+    pub measured: Interval,
+    /// Estimated over measured (geometric mean over replicates), or estimated − measured where `is_ratio` is false.
+    pub effect: Interval,
+    /// Whether `effect` is a ratio: all means of all replicates are positive.
+    pub is_ratio: bool,
+    /// `calibrated` (the interval contains equality), `too optimistic` (estimates too small an error), `too pessimistic`, or
+    /// `undecided` without an interval.
+    pub verdict: String,
+    /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
+    pub deciles: Vec<EstimateBin>,
+    /// Pixel-channels whose estimate is not finite, over all replicates.
+    pub non_finite: u64,
+}
+
+/// One bin of pixel-channels by rank of the estimate.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EstimateBin {
+    /// Mean estimated squared error.
+    pub estimated: Interval,
+    /// Mean measured squared error.
+    pub measured: Interval,
+}
+
+/// How much a row's error changes over the frames of a sequence.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct FlickerSummary {
+    /// Name of the sequence.
+    pub sequence: String,
+    /// Scene ids by frame.
+    pub scenes: Vec<String>,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Row label.
+    pub label: String,
+    /// Unbiased variance over the frames of the error of each pixel and channel, mean over these, less the mean variance of
+    /// the references; mean over replicates.
+    pub variance: Interval,
+    /// The same over that of the row `first` (geometric mean over paired replicates); absent for that row itself, and where
+    /// a corrected variance is not positive.
+    pub ratio_to_first: Option<Interval>,
+    /// Label of the first row of the study that has numbers here.
+    pub first: String,
+    /// Squared error over the same frames, pixels and channels, less the mean variance of the references.
+    pub squared_error: Interval,
+    /// Mean variance of the references that was subtracted; absent if one of them states none, whose noise then counts.
+    pub reference_variance: Option<f64>,
 }
 
 /// Convergence of one row on one scene.

@@ -160,6 +160,25 @@ impl<'a> Measurer<'a> {
         })
     }
 
+    /// Squared error of every pixel and channel as `mse` averages it, with the reference's noise taken out where the
+    /// reference allows; planar like the image, NaN in pixels that do not take part. Single values may be negative.
+    ///
+    /// # Errors
+    /// [`MetricError::Shape`] if the image has not the shape of the reference.
+    pub fn squared_errors(&self, test: &Image) -> Result<Vec<f64>, MetricError> {
+        test.expect_shape("test image", self.mean.width(), self.mean.height(), 3)?;
+        let mut valid = self.valid.clone();
+        for plane in test.planes() {
+            valid.iter_mut().zip(plane).for_each(|(flag, value)| *flag &= value.is_finite());
+        }
+        let values = test.data().iter().zip(self.mean.data()).zip(valid.iter().cycle());
+        let squared = values.enumerate().map(|(i, ((&x, &r), &ok))| {
+            let x = f64::from(x);
+            if ok { self.numerator(i, x, x - f64::from(r)) } else { f64::NAN }
+        });
+        Ok(squared.collect())
+    }
+
     pub(crate) fn pixel_errors(&self, test: &Image) -> Result<PixelErrors, MetricError> {
         test.expect_shape("test image", self.mean.width(), self.mean.height(), 3)?;
         Ok(PixelErrors::new(self, test))

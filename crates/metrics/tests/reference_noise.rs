@@ -175,3 +175,22 @@ fn without_any_statistics_the_noise_counts_as_error() {
     assert!((mean - expected).abs() < 4.0 * (variance / REFERENCES as f64).sqrt(), "{mean} {expected}");
     assert!(trials[0].standard_error.is_nan(), "an unknown noise has no standard error");
 }
+
+#[test]
+fn squared_errors_of_pixels_average_to_the_mse_and_are_missing_where_values_are() {
+    let truth = Image::from_fn(40, 30, 3, |c, x, y| 0.2 + 0.01 * (c + x + y) as f32);
+    let part = |k: usize| truth.map(|v| v + 0.05 * ((k * 7919 % 13) as f32 - 6.0) / 6.0);
+    let reference =
+        Reference::from_parts((0..8).map(part).collect(), 8, noisefloor_frame::Sampling::LowDiscrepancy)
+            .unwrap();
+    let measurer = Measurer::new(&reference, None).unwrap();
+    let mut test = truth.map(|v| 1.1 * v);
+    test.set(1, 3, 2, f32::NAN);
+    let squared = measurer.squared_errors(&test).unwrap();
+    assert_eq!(squared.iter().filter(|v| v.is_nan()).count(), 3, "all channels of the pixel");
+    let kept: Vec<f64> = squared.into_iter().filter(|v| v.is_finite()).collect();
+    let mean = kept.iter().sum::<f64>() / kept.len() as f64;
+    let mse = measurer.measure(&test).unwrap().values["mse"].unwrap();
+    assert!((mean / mse - 1.0).abs() < 1e-12, "{mean} against {mse}");
+    assert!(measurer.squared_errors(&Image::new(2, 2, 3)).is_err());
+}

@@ -17,7 +17,7 @@ use crate::error::ReportError;
 use crate::images::{Gallery, Loader, gallery};
 use crate::index::Index;
 use crate::plot::svg::{Drawing, glyph_definitions};
-use crate::plot::{Figure, Time, bounds, convergence, coverage, png, speed, style};
+use crate::plot::{Figure, Time, bounds, convergence, coverage, estimates, png, speed, style};
 use crate::view;
 
 const TEMPLATE: &str = include_str!("page/index.html");
@@ -139,6 +139,7 @@ struct PlotSets {
     denoise: Vec<Plot>,
     coverage: Vec<Plot>,
     bounds: Vec<Plot>,
+    estimates: Vec<Plot>,
 }
 
 struct Plots {
@@ -176,6 +177,9 @@ impl Plots {
             }
             if wanted("bounds") {
                 self.add(&mut sets.bounds, format!("bounds-{name}"), bounds(index, scene))?;
+            }
+            if wanted("estimates") {
+                self.add(&mut sets.estimates, format!("estimates-{name}"), estimates(index, scene))?;
             }
         }
         Ok(sets)

@@ -54,13 +54,24 @@ fn between<'a>(text: &'a str, start: &str, end: &str) -> &'a str {
 fn every_section_and_plot_is_written() {
     let dir = tempfile::tempdir().unwrap();
     let (files, html) = written(dir.path(), &study());
-    // Per scene: convergence twice, speed twice, coverage, bounds; each as SVG and PNG.
-    assert_eq!(files.plots.len(), 2 * 6 * 2);
+    // Per scene: convergence twice, speed twice, coverage, bounds, estimates; each as SVG and PNG.
+    assert_eq!(files.plots.len(), 2 * 7 * 2);
     assert!(files.plots.iter().all(|p| p.is_file() && p.starts_with(dir.path().join("report/plots"))));
     assert!(files.unreadable.is_empty());
-    for id in
-        ["answers", "tables", "convergence", "speed", "images", "coverage", "bounds", "slopes", "methods"]
-    {
+    for id in [
+        "answers",
+        "paper",
+        "tables",
+        "convergence",
+        "speed",
+        "images",
+        "coverage",
+        "bounds",
+        "estimates",
+        "flicker",
+        "slopes",
+        "methods",
+    ] {
         assert!(html.contains(&format!("<section id=\"{id}\"")), "section {id}");
     }
     for text in [
@@ -74,6 +85,16 @@ fn every_section_and_plot_is_written() {
         "the reference has only 8 times the samples",
         "unproven",
         "0.999998",
+        "0.0082 to 0.36",
+        "larger gain than the paper&#x27;s",
+        "`virtual-flash` did not run here",
+        "rMSE of virtual-flash over rMSE of mc",
+        "Sequence turning, 3 frames",
+        "Over that of mc",
+        "0.00012 was subtracted",
+        "too optimistic",
+        "3 values without a finite estimate are left out",
+        "difference −0.0010",
         "Rings &amp; lamps: do the denoisers agree?",
     ] {
         assert!(html.contains(text), "{text:?} is in the page");
@@ -98,7 +119,11 @@ fn plots_are_well_formed_and_need_no_font() {
         let tags = tags(&svg);
         assert!(!tags.iter().any(|t| t == "text"), "{}", path.display());
         assert!(!svg.contains("font-family") && !svg.contains("NaN") && !svg.contains("inf"));
-        assert!(svg.contains("data-text=\"samples per pixel\"") || svg.contains("time per frame\""));
+        assert!(
+            svg.contains("data-text=\"samples per pixel\"")
+                || svg.contains("time per frame\"")
+                || svg.contains("measured squared error")
+        );
         for used in svg.split("<use href=\"#").skip(1) {
             let id = used.split('"').next().unwrap();
             assert!(svg.contains(&format!("<path id=\"{id}\"")), "glyph {id} is defined");
@@ -128,6 +153,9 @@ fn markup_in_names_is_shown_and_not_obeyed() {
     study.study.question = HOSTILE.into();
     study.warnings.push(HOSTILE.into());
     study.skipped[0].reason = HOSTILE.into();
+    study.paper[0].what = HOSTILE.into();
+    study.flicker[0].sequence = HOSTILE.into();
+    study.paper[0].source = HOSTILE.into();
     let dir = tempfile::tempdir().unwrap();
     let (files, html) = written(dir.path(), &study);
     assert!(!html.contains("<script>alert"), "the name is escaped everywhere");
@@ -238,6 +266,9 @@ fn a_study_without_results_still_has_a_page() {
     empty.methods.clear();
     empty.coverage.clear();
     empty.bounds.clear();
+    empty.estimates.clear();
+    empty.flicker.clear();
+    empty.paper.clear();
     empty.slopes.clear();
     empty.comparisons.clear();
     empty.skipped.clear();

@@ -1,12 +1,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_stats::{
-    self as stats, MonteCarloFit, equal_error_multiplier, monte_carlo_constant, paired_ratio,
-};
+use noisefloor_stats::{MonteCarloFit, equal_error_multiplier, monte_carlo_constant};
 
 use crate::analysis::index::Index;
 use crate::analysis::number::{LEVEL, mean, median, metric, told, value};
-use crate::analysis::series::{by_replicate, reference_se, series};
+use crate::analysis::series::{error_ratio, reference_se, series};
 use crate::context::{Row, SceneContext};
 use crate::record::Record;
 use crate::source::fresh_maps;
@@ -129,24 +127,11 @@ impl Cell<'_> {
     }
 
     fn ratio(&self, of_baseline: &[&Record], class: Option<&str>, id: &str) -> Option<Interval> {
-        let own = by_replicate(self.records, class, id);
-        let other = by_replicate(of_baseline, class, id);
-        let common = match class {
-            None => [reference_se(self.records, id), reference_se(of_baseline, id)],
-            Some(_) => [0.0; 2],
-        };
-        let effect = paired_ratio(&own, &other, common, LEVEL)?;
         let within = match self.records {
-            [only] if class.is_none() => only.ratio_within_se.get(id),
+            [only] if class.is_none() => only.ratio_within_se.get(id).copied(),
             _ => None,
         };
-        match within {
-            Some(&se) if effect.interval.low.is_none() => {
-                let log = stats::Interval::symmetric(effect.interval.value.ln(), se, LEVEL, None, 1);
-                Some(told(log.exp(), Source::WithinImage, None))
-            }
-            _ => Some(told(effect.interval, Source::Replicates, None)),
-        }
+        error_ratio(self.records, of_baseline, class, id, within)
     }
 
     fn multipliers(&self, fits: &Fits) -> BTreeMap<String, (Interval, bool)> {

@@ -43,6 +43,13 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
             "no row is plain Monte Carlo: ratios, equal-error multipliers and coverage are absent".into(),
         );
     }
+    for row in &summary.methods {
+        let ran = summary.cells.iter().any(|cell| cell.label == row.label);
+        let gave = summary.estimates.iter().any(|estimate| estimate.label == row.label);
+        if row.estimates_error && ran && !gave {
+            out.push(format!("{}: claims an estimate of its own error and gave none", row.label));
+        }
+    }
     for scene in index.scenes() {
         of_scene(index, scene, summary, &mut out);
     }

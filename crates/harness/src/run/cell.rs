@@ -131,6 +131,7 @@ impl Cell<'_> {
             coverage: Vec::new(),
             bounds: Vec::new(),
             enclosures: Vec::new(),
+            error_estimate: None,
             non_finite,
             figures: BTreeMap::new(),
             seconds: Seconds {
@@ -158,7 +159,7 @@ impl Cell<'_> {
         record.seconds.denoise_runs = done.runs;
         record.seconds.stages = done.stages;
         let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
-        let Output { image, figures, .. } = done.output;
+        let Output { image, error_estimate, figures, .. } = done.output;
         let measured = self.measurer.measure(&image).map_err(metric)?;
         record.non_finite.output_values = measured.non_finite_values;
         record.metrics = measured.values;
@@ -172,6 +173,10 @@ impl Cell<'_> {
         if scene.single() && row.method.id != crate::BASELINE {
             record.ratio_within_se =
                 ratio_within_se(&image, &self.frame.color.mean, self.reference).map_err(metric)?;
+        }
+        if let Some(estimate) = &error_estimate {
+            let squared = self.measurer.squared_errors(&image).map_err(metric)?;
+            record.error_estimate = self.measure.estimate(estimate, &squared);
         }
         record.figures = figures.into_iter().filter(|(_, value)| value.is_finite()).collect();
         let shape = |source| HarnessError::Shape { scene: scene.id.clone(), source };

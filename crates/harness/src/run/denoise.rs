@@ -98,5 +98,17 @@ fn once(row: &Row, input: &Input<'_>) -> Result<Output, Outcome> {
             target.channels()
         )));
     }
+    if let Some(estimate) = output.error_estimate.as_ref().filter(|e| !e.same_shape(target)) {
+        return Err(failed(format!(
+            "{} gave an error estimate of {}×{}×{} for a frame of {}×{}×{}",
+            row.method.id,
+            estimate.width(),
+            estimate.height(),
+            estimate.channels(),
+            target.width(),
+            target.height(),
+            target.channels()
+        )));
+    }
     Ok(output)
 }

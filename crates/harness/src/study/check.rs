@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use noisefloor_frame::{Reference, Sampling};
 
 use crate::error::{HarnessError, Place};
+use crate::study::compare::check_comparisons;
+use crate::study::sequence::check_sequences;
 use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
 
 /// Where each part of a study stands in its file.
@@ -16,6 +18,8 @@ pub(super) struct Lines<'a> {
     pub text: &'a str,
     /// Lines of the scene tables.
     pub scenes: Vec<usize>,
+    /// Lines of the comparisons with the source work.
+    pub compare: Vec<usize>,
 }
 
 impl Lines<'_> {
@@ -98,7 +102,9 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
         return wrong("figures", key("figures"), quoted(bad), &FIGURES.join(", "));
     }
     check_scenes(study, lines)?;
-    check_rows(study, lines)
+    check_sequences(study, lines)?;
+    check_rows(study, lines)?;
+    check_comparisons(study, lines)
 }
 
 fn check_reference(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {

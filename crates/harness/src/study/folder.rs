@@ -40,6 +40,7 @@ impl Study {
                 spp: silent.then(|| own.into_iter().collect()),
                 replicates: None,
                 shot: Shot::default(),
+                sequence: None,
             });
         }
         let study = Self {

@@ -25,7 +25,8 @@ impl Study {
             })?;
             (entry.id.to_owned(), SceneSource::Builtin(entry.id.into()), entry.about.to_owned())
         };
-        let scenes = vec![SceneSpec { id: id.clone(), source, spp: None, replicates: None, shot }];
+        let scenes =
+            vec![SceneSpec { id: id.clone(), source, spp: None, replicates: None, shot, sequence: None }];
         let study = Self {
             title: format!("Scene {id}"),
             question: format!(

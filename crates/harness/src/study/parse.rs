@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use crate::error::{HarnessError, Place};
 use crate::study::check::{Lines, check};
+use crate::study::compare::RawCompare;
 use crate::study::{
     Family, Maps, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot, Study, Timing,
 };
@@ -60,6 +61,8 @@ struct Raw {
     probe: Option<[f64; 2]>,
     #[serde(default)]
     figures: Vec<String>,
+    #[serde(default)]
+    compare: Vec<Spanned<RawCompare>>,
 }
 
 fn default_width() -> usize {
@@ -129,6 +132,7 @@ struct RawScene {
     integrator: Integrator,
     photons: Option<PhotonSettings>,
     maps: Option<Maps>,
+    sequence: Option<String>,
 }
 
 #[derive(Deserialize)]
@@ -154,7 +158,7 @@ impl Study {
             message: error.to_string().trim_end().to_owned(),
         })?;
         let base = path.parent().unwrap_or(Path::new(""));
-        let mut lines = Lines { file, text, scenes: Vec::new() };
+        let mut lines = Lines { file, text, ..Lines::default() };
 
         let mut scenes = Vec::new();
         for (index, scene) in raw.scenes.into_iter().enumerate() {
@@ -175,6 +179,9 @@ impl Study {
             sampling: raw.reference.sampling.unwrap_or(Sampling::LowDiscrepancy),
         };
         let metrics = raw.metrics.unwrap_or_else(crate::metric::ids);
+        let primary_metric = raw.primary_metric.unwrap_or_else(|| crate::metric::primary(&metrics));
+        lines.compare = raw.compare.iter().map(|compare| line_at(compare.span().start)).collect();
+        let compare = raw.compare.into_iter().map(|compare| compare.into_inner().resolve(&primary_metric));
         let study = Self {
             title: raw.title.unwrap_or_else(|| raw.name.clone()),
             name: raw.name,
@@ -193,7 +200,8 @@ impl Study {
             reference,
             scenes,
             methods: methods.collect(),
-            primary_metric: raw.primary_metric.unwrap_or_else(|| crate::metric::primary(&metrics)),
+            compare: compare.collect(),
+            primary_metric,
             metrics,
             coverage: raw.coverage.unwrap_or_else(|| vec![0.95, 0.99, 0.998]),
             timing: raw.timing,
@@ -252,8 +260,10 @@ impl RawScene {
             photons: self.photons,
             maps: self.maps.unwrap_or_default(),
         };
-        if !rendered && shot != Shot::default() {
-            let allowed = "no `frame`, `orbit_degrees`, `integrator`, `photons` or `maps`: they are for scenes that are rendered";
+        // A sequence of anything has an order.
+        let moment = if self.sequence.is_some() { Shot { frame: 0, ..shot } } else { shot };
+        if !rendered && moment != Shot::default() {
+            let allowed = "no `frame` (but as the place in a `sequence`), `orbit_degrees`, `integrator`, `photons` or `maps`: they are for scenes that are rendered";
             return Err(wrong("not rendered", allowed));
         }
         if self.maps.is_some() && shot.photons().is_none() {
@@ -261,6 +271,6 @@ impl RawScene {
             return Err(wrong("`maps` without photon maps", allowed));
         }
         let replicates = self.replicates.map(Into::into);
-        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot })
+        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot, sequence: self.sequence })
     }
 }

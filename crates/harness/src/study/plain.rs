@@ -43,6 +43,7 @@ impl Study {
             viewer_spp: Vec::new(),
             probe: None,
             figures: Vec::new(),
+            compare: Vec::new(),
         }
     }
 }

@@ -75,6 +75,52 @@ impl Denoiser for Blur {
     }
 }
 
+/// The input plus an offset, with `scale` times its variance as the estimate of its squared error: unbiased at 1.
+struct Judge(JudgeParams);
+
+#[derive(Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct JudgeParams {
+    scale: f32,
+    silent: bool,
+    flat: bool,
+    offset: f32,
+}
+
+impl Default for JudgeParams {
+    fn default() -> Self {
+        Self { scale: 1.0, silent: false, flat: false, offset: 0.0 }
+    }
+}
+
+const JUDGE_PARAMS: &[ParamDoc] = &[
+    ParamDoc { name: "scale", range: "any number", about: "estimate over variance" },
+    ParamDoc { name: "silent", range: "true or false", about: "claims an estimate and gives none" },
+    ParamDoc { name: "flat", range: "true or false", about: "gives an estimate of one channel" },
+    ParamDoc { name: "offset", range: "any number", about: "added to the input" },
+];
+
+impl Denoiser for Judge {
+    fn card(&self) -> MethodCard {
+        let mut card = MethodCard::new("judge", "Judge of itself", CITATION);
+        card.needs = vec![Need::ColorVariance];
+        card.claims.estimates_error = true;
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let color = &input.target.color;
+        let mut output = Output::from_image(color.mean.map(|v| v + self.0.offset));
+        let variance = color.variance.as_ref().filter(|_| !self.0.silent);
+        output.error_estimate = variance.map(|v| v.mean_variance().map(|v| self.0.scale * v));
+        if self.0.flat {
+            output.error_estimate = Some(Image::new(color.mean.width(), color.mean.height(), 1));
+        }
+        Ok(output)
+    }
+}
+
 /// Does what its id says.
 struct Trouble(&'static str);
 
@@ -134,9 +180,16 @@ pub fn registry() -> Registry {
             )
         },
     };
+    let judge = Entry {
+        id: "judge",
+        summary: "judge of itself",
+        params: JUDGE_PARAMS,
+        defaults: || serde_json::to_value(JudgeParams::default()).unwrap(),
+        build: |set| build_with("judge", JUDGE_PARAMS, set, |p: JudgeParams| Ok(Judge(p))),
+    };
     let troubles =
         [trouble!("needy"), trouble!("fails"), trouble!("panics"), trouble!("shrinks"), trouble!("nan")];
-    Registry::new(&[MC_ENTRY, blur], &troubles)
+    Registry::new(&[MC_ENTRY, blur, judge], &troubles)
 }
 
 /// Counts, and stops after a number of cells if asked.

@@ -2,8 +2,12 @@
 
 mod cache;
 mod common;
+mod estimates;
+mod flicker;
 mod import;
 mod outcomes;
+mod paper;
+mod recorded;
 mod resume;
 mod shots;
 mod statistics;

@@ -201,6 +201,7 @@ mod tests {
             reference: String::new(),
             params: serde_json::Value::Null,
             notes: vec![],
+            estimates_error: false,
         }
     }
 

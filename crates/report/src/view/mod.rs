@@ -1,7 +1,10 @@
 //! The page's contents as plain texts, in the order of the template.
 
 mod claims;
+mod estimates;
+mod flicker;
 mod headline;
+mod paper;
 mod slopes;
 mod table;
 mod words;
@@ -12,7 +15,10 @@ use serde::Serialize;
 use crate::format;
 use crate::index::Index;
 pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
+pub(crate) use estimates::EstimatesView;
+pub(crate) use flicker::FlickerView;
 pub(crate) use headline::{Answer, Board, SceneCard};
+pub(crate) use paper::PaperRow;
 pub(crate) use slopes::SlopeTable;
 pub(crate) use table::SceneTable;
 
@@ -32,6 +38,7 @@ pub(crate) struct Page {
     pub answers: Vec<Answer>,
     pub board: Board,
     pub cards: Vec<SceneCard>,
+    pub paper: Vec<PaperRow>,
     pub metric: String,
     pub uncertainty: String,
     pub levels: Vec<Level>,
@@ -40,6 +47,8 @@ pub(crate) struct Page {
     pub coverage: Vec<CoverageView>,
     pub bounds: Vec<BoundsView>,
     pub enclosures: Option<EnclosureView>,
+    pub estimates: Vec<EstimatesView>,
+    pub flicker: Vec<FlickerView>,
     pub slopes: Vec<SlopeTable>,
     pub methods: Vec<MethodView>,
     pub metrics: Vec<MetricInfo>,
@@ -105,6 +114,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         answers: headline::answers(index),
         board: headline::board(index),
         cards: headline::cards(index),
+        paper: paper::paper(index),
         metric: index.metric_name(&study.primary_metric),
         uncertainty: words::uncertainty(summary),
         levels: study.spp.iter().map(|&spp| Level { spp, chosen: Some(spp) == chosen }).collect(),
@@ -113,6 +123,8 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         coverage: summary.scenes.iter().filter_map(|s| claims::coverage(index, s)).collect(),
         bounds: summary.scenes.iter().filter_map(|s| claims::bounds(index, s)).collect(),
         enclosures: claims::enclosures(index),
+        estimates: summary.scenes.iter().filter_map(|s| estimates::estimates(index, s)).collect(),
+        flicker: flicker::flicker(index),
         slopes: slopes::tables(index),
         methods: methods(index),
         metrics: study.metrics.clone(),

@@ -1,0 +1,124 @@
+use std::collections::BTreeSet;
+
+use noisefloor_stats::{self as stats, paired_effect, replicate_interval};
+
+use crate::analysis::index::Index;
+use crate::analysis::number::{LEVEL, told};
+use crate::analysis::series::reference_se;
+use crate::measure::ALL;
+use crate::record::{EstimateCheck, EstimateMeans, Record};
+use crate::summary::{EstimateBin, EstimateSummary, Interval, Source};
+
+/// Estimated against measured squared error per scene, level, row and class, over replicates.
+pub(super) fn estimates(index: &Index<'_>) -> Vec<EstimateSummary> {
+    let mut out = Vec::new();
+    for scene in index.scenes() {
+        for spp in index.levels_of(scene) {
+            for row in index.rows() {
+                let label = &row.summary.label;
+                let records = index.records(scene, spp, label);
+                let checks = || records.iter().filter_map(|record| record.error_estimate.as_ref());
+                let classes: BTreeSet<&str> =
+                    checks().flat_map(|check| check.classes.keys()).map(String::as_str).collect();
+                for class in std::iter::once(ALL).chain(classes) {
+                    out.extend(one(&scene.id, spp, label, class, records));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Means of a class in a replicate.
+fn means<'a>(record: &'a Record, class: &str) -> Option<(&'a EstimateCheck, EstimateMeans)> {
+    let check = record.error_estimate.as_ref()?;
+    let found = if class == ALL { Some(&check.all) } else { check.classes.get(class) };
+    Some((check, *found?))
+}
+
+fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> Option<EstimateSummary> {
+    let found: Vec<_> = records.iter().filter_map(|record| means(record, class)).collect();
+    let estimated: Vec<f64> = found.iter().map(|(_, m)| m.estimated).collect();
+    let measured: Vec<f64> = found.iter().map(|(_, m)| m.measured).collect();
+    // What the reference contributes is known over all pixels only.
+    let reference = if class == ALL { reference_se(records, "mse") } else { 0.0 };
+    let some = |values: &[f64]| values.iter().copied().map(Some).collect::<Vec<_>>();
+    let effect = paired_effect(&some(&estimated), &some(&measured), [0.0, reference], true, LEVEL)?;
+    let within = match found.as_slice() {
+        [(check, _)] if class == ALL && effect.is_ratio => check.within_se,
+        _ => None,
+    };
+    let interval = match within {
+        Some(se) => {
+            // A ratio is positive, and so is the measured error in it.
+            let se = se.hypot(reference / measured[0]);
+            let log = stats::Interval::symmetric(effect.interval.value.ln(), se, LEVEL, None, 1);
+            told(log.exp(), Source::WithinImage, None)
+        }
+        None => told(effect.interval, Source::Replicates, None),
+    };
+    let mean = |values: &[f64], common| {
+        replicate_interval(values, common, LEVEL).map(|i| told(i, Source::Replicates, None))
+    };
+    let bins = if class == ALL { found.iter().map(|(c, _)| c.deciles.len()).min().unwrap_or(0) } else { 0 };
+    let bin = |k: usize| {
+        let part = |of: fn(&EstimateMeans) -> f64| -> Vec<f64> {
+            found.iter().filter_map(|(check, _)| check.deciles.get(k)).map(of).collect()
+        };
+        Some(EstimateBin {
+            estimated: mean(&part(|m| m.estimated), 0.0)?,
+            measured: mean(&part(|m| m.measured), 0.0)?,
+        })
+    };
+    Some(EstimateSummary {
+        scene: scene.to_owned(),
+        spp,
+        label: label.to_owned(),
+        class: class.to_owned(),
+        estimated: mean(&estimated, 0.0)?,
+        measured: mean(&measured, reference)?,
+        verdict: verdict(&interval, effect.is_ratio).into(),
+        effect: interval,
+        is_ratio: effect.is_ratio,
+        deciles: (0..bins).filter_map(bin).collect(),
+        non_finite: found.iter().map(|(check, _)| check.non_finite).sum(),
+    })
+}
+
+fn verdict(effect: &Interval, is_ratio: bool) -> &'static str {
+    let equal = if is_ratio { 1.0 } else { 0.0 };
+    match (effect.low, effect.high) {
+        (Some(low), _) if low > equal => "too pessimistic",
+        (_, Some(high)) if high < equal => "too optimistic",
+        (Some(_), Some(_)) => "calibrated",
+        _ => "undecided",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_verdict_follows_from_where_equality_lies() {
+        let of = |low, high, is_ratio| {
+            let interval = Interval {
+                value: 0.5,
+                standard_error: None,
+                low,
+                high,
+                confidence: 0.95,
+                n: 2,
+                source: Source::Replicates,
+                below: None,
+            };
+            verdict(&interval, is_ratio)
+        };
+        assert_eq!(of(Some(0.9), Some(1.1), true), "calibrated");
+        assert_eq!(of(Some(0.5), Some(0.9), true), "too optimistic");
+        assert_eq!(of(Some(1.1), Some(1.9), true), "too pessimistic");
+        assert_eq!(of(Some(-0.5), Some(-0.1), false), "too optimistic");
+        assert_eq!(of(Some(0.1), Some(0.9), false), "too pessimistic");
+        assert_eq!(of(None, None, true), "undecided");
+    }
+}

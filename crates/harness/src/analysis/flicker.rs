@@ -1,0 +1,68 @@
+use noisefloor_stats::{paired_ratio, replicate_interval};
+
+use crate::analysis::index::Index;
+use crate::analysis::number::{LEVEL, mean, told};
+use crate::flicker::{Corrected, Flicker, OverTime};
+use crate::summary::{FlickerSummary, Interval, Source};
+
+/// Flicker per sequence, level and row, over replicates.
+pub(super) fn flicker(index: &Index<'_>, measured: &[Flicker]) -> Vec<FlickerSummary> {
+    let mut out = Vec::new();
+    for (name, frames) in index.study.sequences() {
+        let scenes: Vec<String> = frames.iter().map(|scene| scene.id.clone()).collect();
+        for spp in index.levels() {
+            let mut first: Option<(&str, Vec<&Flicker>)> = None;
+            for row in index.rows() {
+                let label = row.summary.label.as_str();
+                let same = |f: &&Flicker| f.sequence == name && f.spp == spp && f.label == label;
+                let own: Vec<&Flicker> = measured.iter().filter(same).collect();
+                let variance = corrected(&own, |found| found.variance);
+                let squared = corrected(&own, |found| found.squared_error);
+                let (Some(variance), Some(squared_error)) = (variance, squared) else { continue };
+                let ratio_to_first = first.as_ref().and_then(|(_, other)| ratio(&own, other));
+                // The same for all replicates, up to pixels that are not finite in some of them.
+                let noise: Option<Vec<f64>> = own.iter().map(|f| f.found.reference_variance).collect();
+                let (first, _) = first.get_or_insert((label, own));
+                out.push(FlickerSummary {
+                    sequence: name.to_owned(),
+                    scenes: scenes.clone(),
+                    spp,
+                    label: label.to_owned(),
+                    variance,
+                    ratio_to_first,
+                    first: (*first).to_owned(),
+                    squared_error,
+                    reference_variance: noise.and_then(|all| mean(all.into_iter())),
+                });
+            }
+        }
+    }
+    out
+}
+
+/// Mean over replicates of a number that the references' noise was taken out of.
+fn corrected(found: &[&Flicker], of: fn(&OverTime) -> Corrected) -> Option<Interval> {
+    let numbers = || found.iter().map(|f| of(&f.found));
+    let values: Vec<f64> = numbers().map(|number| number.value).collect();
+    let common = mean(numbers().map(|number| number.reference_se))?;
+    let interval = replicate_interval(&values, common, LEVEL)?;
+    let floor = mean(numbers().map(|number| number.floor))?;
+    let mut out = told(interval, Source::Replicates, interval.below(floor));
+    // Neither is negative, whatever its corrected estimate.
+    out.low = out.low.map(|low| low.max(0.0));
+    Some(out)
+}
+
+/// Ratio of the variances of two rows, paired over replicates.
+fn ratio(own: &[&Flicker], other: &[&Flicker]) -> Option<Interval> {
+    let by_replicate = |found: &[&Flicker]| {
+        let count = found.iter().map(|f| f.replicate as usize + 1).max().unwrap_or(0);
+        let mut out = vec![None; count];
+        found.iter().for_each(|f| out[f.replicate as usize] = Some(f.found.variance.value));
+        out
+    };
+    let common = [own, other].map(|found| mean(found.iter().map(|f| f.found.variance.reference_se)));
+    let common = common.map(|se| se.unwrap_or(0.0));
+    let effect = paired_ratio(&by_replicate(own), &by_replicate(other), common, LEVEL)?;
+    Some(told(effect.interval, Source::Replicates, None))
+}

@@ -1,0 +1,93 @@
+//! How much the error of an output changes over the frames of a sequence, from the kept images.
+
+mod over_time;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use noisefloor_io::{IoError, ReadOptions, read_color, read_reference};
+
+use crate::context::Context;
+use crate::record::{Outcome, Record};
+use crate::store::Layout;
+use crate::study::Study;
+use over_time::Truth;
+pub(crate) use over_time::{Corrected, OverTime};
+
+/// One row at one level in one replicate of a sequence.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Flicker {
+    pub(crate) sequence: String,
+    pub(crate) spp: u32,
+    pub(crate) replicate: u32,
+    pub(crate) label: String,
+    pub(crate) found: OverTime,
+}
+
+/// All that could be measured, and what could not.
+#[derive(Debug, Default)]
+pub(crate) struct Sequences {
+    pub(crate) measured: Vec<Flicker>,
+    pub(crate) problems: Vec<String>,
+}
+
+/// Measures every sequence of a study, replicate by replicate: frame t of replicate r belongs to replicate r of the
+/// sequence. What has not run on all frames is left out; a file that cannot be read leaves its sequence out and is told.
+pub(crate) fn measure(study: &Study, context: &Context, records: &[Record], root: &Path) -> Sequences {
+    let mut out = Sequences::default();
+    for (name, frames) in study.sequences() {
+        let ids: Vec<&str> = frames.iter().map(|scene| scene.id.as_str()).collect();
+        // A study that was stopped has not come to all of them.
+        let begun = ids.iter().all(|id| records.iter().any(|record| record.scene == *id));
+        match one_sequence(name, &ids, context, records, root) {
+            Ok(found) if found.is_empty() && begun => out.problems.push(format!(
+                "sequence {name}: flicker is left out: no replicate of a row ran on all frames"
+            )),
+            Ok(found) => out.measured.extend(found),
+            Err(error) => out.problems.push(format!("sequence {name}: flicker is left out: {error}")),
+        }
+    }
+    out
+}
+
+fn one_sequence(
+    name: &str,
+    ids: &[&str],
+    context: &Context,
+    records: &[Record],
+    root: &Path,
+) -> Result<Vec<Flicker>, IoError> {
+    // By level, row and replicate: the images of all frames, in their order.
+    let mut images: BTreeMap<(u32, usize, u32), Vec<Option<&str>>> = BTreeMap::new();
+    for record in records.iter().filter(|record| record.outcome == Outcome::Done) {
+        let Some(frame) = ids.iter().position(|id| *id == record.scene) else { continue };
+        let row = context.methods.iter().position(|row| row.summary.label == record.label);
+        let Some(row) = row else { continue };
+        let key = (record.spp, row, record.replicate);
+        images.entry(key).or_insert_with(|| vec![None; ids.len()])[frame] = record.image.as_deref();
+    }
+    let whole: Vec<_> = images
+        .into_iter()
+        .filter_map(|(key, images)| Some((key, images.into_iter().collect::<Option<Vec<&str>>>()?)))
+        .collect();
+    if whole.is_empty() {
+        return Ok(Vec::new());
+    }
+    let references = ids.iter().map(|id| {
+        // The sample count of a reference plays no part here.
+        read_reference(root.join(Layout::reference(id)), &ReadOptions { spp: Some(1) })
+    });
+    let truth = Truth::new(references)?;
+    let mut out = Vec::new();
+    for ((spp, row, replicate), images) in whole {
+        let outputs = images.into_iter().map(|path| read_color(root.join(path)));
+        out.extend(truth.over_time(outputs)?.map(|found| Flicker {
+            sequence: name.to_owned(),
+            spp,
+            replicate,
+            label: context.methods[row].summary.label.clone(),
+            found,
+        }));
+    }
+    Ok(out)
+}
