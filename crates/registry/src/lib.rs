@@ -16,6 +16,10 @@ mod tests;
 
 use noisefloor_denoiser::{Entry, MC_ENTRY, Registry};
 use noisefloor_geometric::{AS_WRITTEN_ENTRY, CORRECTED_ENTRY};
+use noisefloor_rdfc::{
+    ENTRY as RDFC_ENTRY, FIRST_ENTRY as RDFC_FIRST_ENTRY, SECOND_ENTRY as RDFC_SECOND_ENTRY,
+    THIRD_ENTRY as RDFC_THIRD_ENTRY,
+};
 use noisefloor_virtual_flash::ENTRY as VIRTUAL_FLASH_ENTRY;
 
 pub use table::{methods_table, params_table};
@@ -23,7 +27,16 @@ pub use table::{methods_table, params_table};
 /// The built-in methods in display order.
 #[must_use]
 pub fn builtin() -> &'static [Entry] {
-    const BUILTIN: &[Entry] = &[MC_ENTRY, VIRTUAL_FLASH_ENTRY, CORRECTED_ENTRY, AS_WRITTEN_ENTRY];
+    const BUILTIN: &[Entry] = &[
+        MC_ENTRY,
+        VIRTUAL_FLASH_ENTRY,
+        RDFC_ENTRY,
+        RDFC_FIRST_ENTRY,
+        RDFC_SECOND_ENTRY,
+        RDFC_THIRD_ENTRY,
+        CORRECTED_ENTRY,
+        AS_WRITTEN_ENTRY,
+    ];
     BUILTIN
 }
 

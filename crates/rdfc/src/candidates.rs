@@ -1,0 +1,110 @@
+//! The three candidate filters, in one sweep over the window.
+
+use noisefloor_denoiser::DenoiseError;
+use noisefloor_frame::{Frame, Image};
+use noisefloor_kernels::nlm::{NlmInputs, NlmParams, Pass, Perturbation, Planes, filter};
+
+use crate::kernel;
+use crate::prepare::Prepared;
+use crate::selection::Choice;
+use crate::settings::{FLOOR, LOW_FLOOR, Settings};
+use crate::sure::sure;
+use crate::variance::mean_of_halves;
+
+/// Step of the finite difference over the value.
+const STEP: f32 = 0.01;
+/// Values below this fraction of the image's mean magnitude get the derivative for fixed weights.
+const SMALL: f64 = 1e-6;
+
+/// What one candidate gives.
+#[derive(Debug, Clone)]
+pub(crate) struct Candidate {
+    pub halves: [Image; 2],
+    pub mean: Image,
+    /// dF/du per channel.
+    pub derivative: Image,
+    /// Estimated squared error per channel.
+    pub sure: Image,
+    /// Σ w, one plane.
+    pub weight_sum: Image,
+    /// Σ w·n, one plane: samples that contribute.
+    pub contributing: Image,
+}
+
+/// Runs the candidates of `which` on `target`, with windows that also take in `beside`.
+pub(crate) fn candidates(
+    method: &str,
+    target: &Prepared<'_>,
+    beside: &[Prepared<'_>],
+    which: &[Choice],
+    settings: &Settings,
+) -> Result<Vec<Candidate>, DenoiseError> {
+    let frame = target.frame;
+    let (width, height) = (frame.width(), frame.height());
+    let params = NlmParams {
+        feature_k: settings.feature_k,
+        denominator: settings.denominator,
+        center: settings.center,
+        ..NlmParams::new(width, height, settings.radius, settings.color_k)
+    };
+    let pass = |choice: &Choice| match choice {
+        Choice::First => Pass { patch: Some(1), floor: FLOOR, derivative: true },
+        Choice::Second => Pass { patch: Some(3), floor: FLOOR, derivative: true },
+        Choice::Third => Pass { patch: None, floor: LOW_FLOOR, derivative: true },
+    };
+    let passes: Vec<Pass> = which.iter().map(pass).collect();
+    let steps = steps(&frame.color.mean);
+    let counts: Vec<Image> = std::iter::once(target).chain(beside).map(|p| counts(p.frame)).collect();
+    let inputs = NlmInputs {
+        frame: with_counts(target, &counts[0]),
+        neighbors: beside.iter().zip(&counts[1..]).map(|(p, counts)| with_counts(p, counts)).collect(),
+        perturbation: Some(Perturbation { step: [0, 1, 2].map(|c| steps.plane(c)), rule: settings.rule }),
+    };
+    let filtered = filter(&params, &passes, &inputs).map_err(|e| kernel::kernel_error(method, &e))?;
+    Ok(filtered
+        .into_iter()
+        .map(|f| {
+            let halves = kernel::halves(&f.planes[..6], width, height);
+            let mean = mean_of_halves(&halves, &frame.samples);
+            let derivative = kernel::image(&f.derivative, width, height);
+            let sure = sure(&mean, &frame.color.mean, &target.variance, &derivative);
+            let contributing = f.planes[6].iter().zip(&f.weight_sum).map(|(n, w)| n * w).collect();
+            Candidate {
+                sure,
+                halves,
+                mean,
+                derivative,
+                contributing: kernel::image(&[contributing], width, height),
+                weight_sum: kernel::image(&[f.weight_sum], width, height),
+            }
+        })
+        .collect())
+}
+
+/// The frame's planes and its sample counts to filter.
+fn with_counts<'a>(prepared: &'a Prepared<'_>, counts: &'a Image) -> Planes<'a> {
+    let mut planes = prepared.planes();
+    planes.targets.push(counts.plane(0));
+    planes
+}
+
+/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is outside [0, 1] or next
+/// to nothing.
+fn steps(color: &Image) -> Image {
+    let magnitude: f64 = color.data().iter().map(|v| f64::from(v.abs())).sum();
+    // An image has at least one value.
+    let least = (SMALL * magnitude / color.data().len() as f64) as f32;
+    let mut out = color.map(|v| STEP * v);
+    for p in 0..color.pixels() {
+        let fine = |v: f32| v > 0.0 && v >= least && v <= 1.0;
+        if !color.planes().all(|plane| fine(plane[p])) {
+            out.planes_mut().for_each(|plane| plane[p] = 0.0);
+        }
+    }
+    out
+}
+
+/// Samples of every pixel, one plane.
+fn counts(frame: &Frame) -> Image {
+    Image::from_fn(frame.width(), frame.height(), 1, |_, x, y| frame.samples.at(y * frame.width() + x) as f32)
+}

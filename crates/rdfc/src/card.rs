@@ -1,0 +1,44 @@
+//! What the method needs and what may be said of it.
+
+use noisefloor_denoiser::{Citation, MethodCard, Need};
+use noisefloor_frame::FeatureId;
+
+use crate::Params;
+use crate::params::Profile;
+use crate::selection::Choice;
+
+/// The source work.
+pub const CITATION: Citation = Citation {
+    key: "rousselle2013rdfc",
+    text: "F. Rousselle, M. Manzi, M. Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics \
+           Forum 32(7), 2013",
+};
+
+pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCard {
+    let mut name = String::from(match only {
+        None => "Robust denoising from features and colour",
+        Some(Choice::First) => "FIRST candidate: colour, small patches",
+        Some(Choice::Second) => "SECOND candidate: colour, large patches",
+        Some(Choice::Third) => "THIRD candidate: features alone",
+    });
+    if params.profile == Profile::Authors {
+        name.push_str(", the authors' program");
+    }
+    let mut card = MethodCard::new(id, name, CITATION);
+    card.needs = vec![Need::ColorVariance, Need::ColorHalves, Need::Samples(2)];
+    for name in &params.features {
+        card.uses.push(Need::Feature(FeatureId::from_name(name)));
+        card.uses.push(Need::FeatureVariance(FeatureId::from_name(name)));
+    }
+    card.neighbors = params.neighbors;
+    card.claims.estimates_error = true;
+    card.notes = vec![
+        "no bound is claimed; the error estimate is unbiased for normal noise of known variance and a fixed filter, elsewhere \
+         it is as good as measured"
+            .into(),
+    ];
+    if only.is_none() {
+        card.notes.push("the error estimate is that of the combination, before the second pass".into());
+    }
+    card
+}

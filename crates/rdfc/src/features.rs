@@ -1,0 +1,168 @@
+//! Features: normalised to unit range, filtered by themselves, and measured against variance and slope (Sec. 5).
+
+use noisefloor_denoiser::DenoiseError;
+use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Sampling, Variance};
+use noisefloor_kernels::nlm::{FeatureChannel, MAX_VARIANCE, NlmParams};
+use rayon::prelude::*;
+
+use crate::VarianceScaling;
+use crate::kernel;
+use crate::params::Gradient;
+use crate::settings::Settings;
+use crate::variance::{mean_of_halves, scaled_sample_variance, smoothed_half_variance};
+
+/// Share of pixels whose caustic density is below what counts as 1.
+const CAUSTIC_QUANTILE: f64 = 0.99;
+
+/// A feature ready to make weights from.
+#[derive(Debug, Clone)]
+pub(crate) struct Feature {
+    pub name: String,
+    /// Prefiltered mean.
+    pub mean: Image,
+    /// Residual variance of it.
+    pub variance: Image,
+    /// The larger of residual variance and squared slope.
+    pub spread: Image,
+}
+
+impl Feature {
+    pub fn channels(&self) -> Vec<FeatureChannel<'_>> {
+        let planes = self.mean.planes().zip(self.variance.planes()).zip(self.spread.planes());
+        planes.map(|((value, variance), spread)| FeatureChannel { value, variance, spread }).collect()
+    }
+}
+
+/// value·factor + offset: what brings a feature to unit range.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Unit {
+    factor: f32,
+    offset: f32,
+}
+
+/// The features of `names` that the frame has, in that order, with what brings them to unit range.
+pub(crate) fn usable(frame: &Frame, names: &[String]) -> Vec<(FeatureId, Unit)> {
+    let mut out: Vec<(FeatureId, Unit)> = Vec::new();
+    for name in names {
+        let id = FeatureId::from_name(name);
+        let Some(feature) = frame.feature(&id).filter(|f| f.mean.channels() > 0) else { continue };
+        if out.iter().all(|(known, _)| *known != id) {
+            let unit = unit(&id, &feature.mean);
+            out.push((id, unit));
+        }
+    }
+    out
+}
+
+/// Largest magnitude; 0 for an image of zeros.
+fn largest(image: &Image) -> f32 {
+    image.data().iter().fold(0.0, |most, v| most.max(v.abs()))
+}
+
+fn unit(id: &FeatureId, mean: &Image) -> Unit {
+    // Reciprocals of values so small that they overflow would blow up nothing but rounding.
+    let over = |most: f32| Unit { factor: if most > 1e-30 { 1.0 / most } else { 1.0 }, offset: 0.0 };
+    match id {
+        // Averages of unit vectors.
+        FeatureId::Normal if largest(mean) <= 1.001 => Unit { factor: 0.5, offset: 0.5 },
+        FeatureId::Albedo | FeatureId::Brdf | FeatureId::Visibility => over(largest(mean).max(1.0)),
+        // A density has peaks without limit: what is bright but common counts as 1.
+        FeatureId::Caustics => {
+            let mut positive: Vec<f32> = mean.data().iter().copied().filter(|v| *v > 0.0).collect();
+            positive.sort_unstable_by(f32::total_cmp);
+            let index = (CAUSTIC_QUANTILE * positive.len() as f64) as usize;
+            over(positive.get(index).or(positive.last()).copied().unwrap_or(1.0))
+        }
+        _ => over(largest(mean)),
+    }
+}
+
+/// Prefilters one feature of `frame`, which has it.
+pub(crate) fn prefilter(
+    method: &str,
+    frame: &Frame,
+    feature: &Estimate,
+    name: &str,
+    unit: Unit,
+    settings: &Settings,
+) -> Result<Feature, DenoiseError> {
+    let scaled = |image: &Image| image.map(|v| v * unit.factor + unit.offset);
+    let mean = scaled(&feature.mean);
+    let halves = feature.halves.as_ref().map(|halves| halves.each_ref().map(scaled));
+    let sampled = feature
+        .variance
+        .as_ref()
+        .map(Variance::mean_variance)
+        .map(|v| v.map(|v| (v * unit.factor * unit.factor).min(MAX_VARIANCE)));
+    let variance = match (&sampled, &halves) {
+        (Some(variance), Some(halves)) if scales(settings.scaling, frame.sampling) => {
+            scaled_sample_variance(variance, halves, &frame.samples)
+        }
+        (Some(variance), _) => variance.clone(),
+        (None, Some(halves)) => smoothed_half_variance(halves, &frame.samples),
+        // Nothing is known of its noise: taken as it is.
+        (None, None) => Image::new(mean.width(), mean.height(), mean.channels()),
+    };
+    let (mean, variance) = match (settings.prefilter, &halves) {
+        (Some(own), Some(halves)) => {
+            let (width, height) = (mean.width(), mean.height());
+            let params =
+                NlmParams { center: settings.center, ..NlmParams::new(width, height, own.radius, own.k) };
+            let guide = kernel::channels(&mean, &variance);
+            let targets = kernel::half_planes(halves);
+            let filtered = kernel::filter_guided(method, &params, own.patch, guide, targets)?;
+            let halves = kernel::halves(&filtered.planes, width, height);
+            (mean_of_halves(&halves, &frame.samples), smoothed_half_variance(&halves, &frame.samples))
+        }
+        _ => (mean, variance),
+    };
+    let slope = squared_slope(&mean, settings.gradient);
+    let spread = variance.zip_map(&slope, f32::max);
+    Ok(Feature { name: name.to_owned(), mean, variance, spread })
+}
+
+/// Whether the sample variance of such a frame is scaled.
+pub(crate) fn scales(scaling: VarianceScaling, sampling: Sampling) -> bool {
+    match scaling {
+        VarianceScaling::Auto => sampling != Sampling::Independent,
+        VarianceScaling::Always => true,
+        VarianceScaling::Never => false,
+    }
+}
+
+/// Squared gradient magnitude per channel.
+pub(crate) fn squared_slope(image: &Image, rule: Gradient) -> Image {
+    let (width, height) = (image.width(), image.height());
+    let mut out = Image::new(width, height, image.channels());
+    if rule == Gradient::Off {
+        return out;
+    }
+    for c in 0..image.channels() {
+        let from = image.plane(c);
+        out.plane_mut(c).par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            for (x, value) in row.iter_mut().enumerate() {
+                let p = y * width + x;
+                let at = |inside: bool, q: usize| if inside { Some(from[q]) } else { None };
+                let left = at(x > 0, p.wrapping_sub(1));
+                let right = at(x + 1 < width, p + 1);
+                let above = at(y > 0, p.wrapping_sub(width));
+                let below = at(y + 1 < height, p + width);
+                let square = slope(left, from[p], right, rule) + slope(above, from[p], below, rule);
+                *value = square.min(MAX_VARIANCE);
+            }
+        });
+    }
+    out
+}
+
+/// Squared slope along one axis.
+fn slope(before: Option<f32>, here: f32, after: Option<f32>, rule: Gradient) -> f32 {
+    let square = |d: f32| d * d;
+    match (rule, before, after) {
+        (Gradient::Off, ..) | (_, None, None) => 0.0,
+        (Gradient::MinHalf, Some(a), Some(b)) => square(0.5 * (a - here)).min(square(0.5 * (b - here))),
+        (Gradient::MinHalf, ..) => 0.0,
+        (Gradient::Central, Some(a), Some(b)) => square(0.5 * (b - a)),
+        (Gradient::Central, Some(a), None) | (Gradient::Central, None, Some(a)) => square(a - here),
+    }
+}

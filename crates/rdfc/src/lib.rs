@@ -1,0 +1,29 @@
+#![doc = include_str!("../README.md")]
+
+mod candidates;
+mod card;
+mod density;
+mod diagnostics;
+mod features;
+mod first_pass;
+mod kernel;
+mod method;
+mod params;
+mod prepare;
+mod second_pass;
+mod selection;
+mod settings;
+mod sure;
+mod variance;
+
+#[cfg(test)]
+mod tests;
+
+pub use card::CITATION;
+pub use method::{ENTRY, FIRST_ENTRY, Rdfc, SECOND_ENTRY, THIRD_ENTRY};
+pub use params::{
+    CenterWeight, DerivativeRule, FeatureDenominator, Gradient, Params, Profile, SecondPass, Ties,
+    VarianceScaling,
+};
+pub use selection::{Choice, select};
+pub use variance::{box_mean, scaled_sample_variance, smoothed_half_variance};

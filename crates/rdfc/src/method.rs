@@ -1,0 +1,223 @@
+use noisefloor_denoiser::{
+    Adaptive, DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Output, StageTimer, build_with,
+};
+use noisefloor_frame::{Frame, Image};
+use noisefloor_kernels::nlm::MAX_PIXELS;
+
+use crate::candidates::{Candidate, candidates};
+use crate::density::{Outcome, density};
+use crate::diagnostics::{describe_choice, describe_inputs, figures};
+use crate::features::usable;
+use crate::first_pass::{combined, first_pass};
+use crate::kernel::within_range;
+use crate::prepare::Prepared;
+use crate::second_pass::second_pass;
+use crate::selection::Choice;
+use crate::settings::Settings;
+use crate::{Params, card};
+
+macro_rules! entry {
+    ($(#[$doc:meta])* $name:ident, $id:literal, $only:expr, $summary:literal) => {
+        $(#[$doc])*
+        pub const $name: Entry = Entry {
+            id: $id,
+            summary: $summary,
+            params: Params::DOCS,
+            defaults: || serde_json::to_value(Params::default()).unwrap_or_default(),
+            build: |overrides| build_with($id, Params::DOCS, overrides, |params| Rdfc::with($id, $only, params)),
+        };
+    };
+}
+
+entry! {
+    /// Registry entry of the whole method.
+    ENTRY, "rdfc", None,
+    "three filters by colour and features, chosen per pixel by an unbiased risk estimate"
+}
+entry! {
+    /// Registry entry of the FIRST candidate.
+    FIRST_ENTRY, "rdfc-first", Some(Choice::First),
+    "colour in 3×3 patches and features: keeps small detail"
+}
+entry! {
+    /// Registry entry of the SECOND candidate.
+    SECOND_ENTRY, "rdfc-second", Some(Choice::Second),
+    "colour in 7×7 patches and features: robust to noise"
+}
+entry! {
+    /// Registry entry of the THIRD candidate.
+    THIRD_ENTRY, "rdfc-third", Some(Choice::Third),
+    "features alone: blind to what the colour shows"
+}
+
+/// The method of Rousselle et al. 2013, or one of its candidate filters: see the crate documentation.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Rdfc {
+    id: &'static str,
+    only: Option<Choice>,
+    params: Params,
+    settings: Settings,
+}
+
+impl Rdfc {
+    /// The whole method.
+    ///
+    /// # Errors
+    /// The name of the first parameter that is out of range, see [`Params::DOCS`].
+    pub fn new(params: Params) -> Result<Self, &'static str> {
+        Self::with("rdfc", None, params)
+    }
+
+    /// One candidate filter alone.
+    ///
+    /// # Errors
+    /// As [`Rdfc::new`].
+    pub fn candidate(choice: Choice, params: Params) -> Result<Self, &'static str> {
+        let id = match choice {
+            Choice::First => "rdfc-first",
+            Choice::Second => "rdfc-second",
+            Choice::Third => "rdfc-third",
+        };
+        Self::with(id, Some(choice), params)
+    }
+
+    fn with(id: &'static str, only: Option<Choice>, params: Params) -> Result<Self, &'static str> {
+        params.validate()?;
+        let settings = Settings::new(&params);
+        Ok(Self { id, only, params, settings })
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &Params {
+        &self.params
+    }
+
+    /// Prepares the target and the neighbours in use, and runs the candidates.
+    fn start<'a>(
+        &self,
+        input: &Input<'a>,
+        timer: &mut StageTimer,
+    ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
+        input.check(&self.card())?;
+        check_size(self.id, input.target)?;
+        // All frames are brought to the target's units.
+        let features = usable(input.target, &self.params.features);
+        let prepare =
+            |frame, timer: &mut StageTimer| Prepared::new(self.id, frame, &features, &self.settings, timer);
+        let target = prepare(input.target, timer)?;
+        let beside = self.beside(input).map(|frame| prepare(frame, timer)).collect::<Result<Vec<_>, _>>()?;
+        // A neighbour that lacks a feature of the target has no distances to it.
+        let beside: Vec<Prepared<'_>> = beside.into_iter().filter(|frame| alike(&target, frame)).collect();
+        let which = self.only.map_or_else(|| Choice::ALL.to_vec(), |choice| vec![choice]);
+        let candidates = candidates(self.id, &target, &beside, &which, &self.settings)?;
+        timer.finish("candidates");
+        Ok((target, candidates))
+    }
+
+    /// Neighbouring frames in use, the nearest of each side.
+    fn beside<'a>(&self, input: &Input<'a>) -> impl Iterator<Item = &'a Frame> + use<'a> {
+        let k = self.params.neighbors;
+        let before = &input.before[input.before.len().saturating_sub(k)..];
+        before.iter().chain(&input.after[..k.min(input.after.len())])
+    }
+}
+
+impl Default for Rdfc {
+    fn default() -> Self {
+        Self::new(Params::default()).expect("the defaults are in range")
+    }
+}
+
+/// Whether both frames have the same features with the same channels.
+fn alike(a: &Prepared<'_>, b: &Prepared<'_>) -> bool {
+    let shape = |p: &Prepared<'_>| -> Vec<(String, usize)> {
+        p.features.iter().map(|f| (f.name.clone(), f.mean.channels())).collect()
+    };
+    shape(a) == shape(b)
+}
+
+impl Denoiser for Rdfc {
+    fn card(&self) -> MethodCard {
+        card::card(self.id, self.only, &self.params)
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        let mut timer = StageTimer::start();
+        let (target, mut candidates) = self.start(input, &mut timer)?;
+        let diagnostics = input.diagnostics != Diagnostics::Off;
+        let mut output = if self.only.is_some() {
+            let candidate = candidates.remove(0); // asked for one
+            let mut output = Output::from_image(candidate.mean);
+            output.error_estimate = Some(candidate.sure);
+            output
+        } else {
+            let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
+            let halves = first.halves.clone().map(within_range);
+            let mean = within_range(first.mean.clone());
+            let image = second_pass(self.id, &target, &halves, &mean, &self.settings)?;
+            timer.finish("second pass");
+            let mut output = Output::from_image(image);
+            figures(&mut output, &first);
+            if diagnostics {
+                describe_choice(&mut output, &candidates, &first);
+            }
+            output.error_estimate = Some(first.sure);
+            output
+        };
+        if let Some(estimate) = &output.error_estimate {
+            // An image has at least one value.
+            let values = estimate.data();
+            let mean = values.iter().copied().map(f64::from).sum::<f64>() / values.len() as f64;
+            output.figures.push(("mean error estimate".into(), mean));
+        }
+        if diagnostics {
+            describe_inputs(&mut output, &target);
+            timer.finish("diagnostics");
+        }
+        output.stages = timer.into_stages();
+        Ok(output)
+    }
+
+    fn adaptive(&self) -> Option<&dyn Adaptive> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Rdfc {
+    fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
+        let mut timer = StageTimer::start();
+        let (target, candidates) = self.start(input, &mut timer)?;
+        let plain = self.settings.plain_density;
+        if self.only.is_some() {
+            let only = &candidates[0]; // asked for one
+            let outcome = Outcome {
+                mean: &only.mean,
+                sure: &only.sure,
+                weight_sum: &only.weight_sum,
+                contributing: &only.contributing,
+            };
+            return density(self.id, &target, &outcome, plain);
+        }
+        let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
+        let outcome = Outcome {
+            mean: &first.mean,
+            sure: &first.sure,
+            weight_sum: &combined(&candidates, &first.weights, |c| &c.weight_sum),
+            contributing: &combined(&candidates, &first.weights, |c| &c.contributing),
+        };
+        density(self.id, &target, &outcome, plain)
+    }
+}
+
+fn check_size(method: &str, frame: &Frame) -> Result<(), DenoiseError> {
+    if frame.pixels() <= MAX_PIXELS {
+        return Ok(());
+    }
+    Err(DenoiseError::Parameter {
+        method: method.into(),
+        parameter: "image size",
+        value: format!("{} pixels", frame.pixels()),
+        allowed: format!("at most {MAX_PIXELS}"),
+    })
+}

@@ -1,0 +1,89 @@
+//! A frame with everything that the filters look at.
+
+use noisefloor_denoiser::{DenoiseError, StageTimer};
+use noisefloor_frame::{FeatureId, Frame, Image, Variance};
+use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, Planes};
+
+use crate::features::{Feature, Unit, prefilter, scales};
+use crate::kernel;
+use crate::settings::Settings;
+use crate::variance::scaled_sample_variance;
+
+/// A frame with variances at the right level and its features prefiltered.
+#[derive(Debug)]
+pub(crate) struct Prepared<'a> {
+    pub frame: &'a Frame,
+    /// Both halves of the colour.
+    pub halves: &'a [Image; 2],
+    /// Variance of the colour's mean.
+    pub variance: Image,
+    pub features: Vec<Feature>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Prepares a checked frame with those of `features` that it has. Both stages go to `timer`.
+    pub fn new(
+        method: &str,
+        frame: &'a Frame,
+        features: &[(FeatureId, Unit)],
+        settings: &Settings,
+        timer: &mut StageTimer,
+    ) -> Result<Self, DenoiseError> {
+        let sampled = frame.color.variance.as_ref().map(Variance::mean_variance);
+        let (Some(halves), Some(sampled)) = (&frame.color.halves, sampled) else {
+            return Err(DenoiseError::MissingInputs {
+                method: method.into(),
+                missing: vec![
+                    noisefloor_denoiser::Need::ColorHalves,
+                    noisefloor_denoiser::Need::ColorVariance,
+                ],
+            });
+        };
+        check_values(method, &frame.color.mean)?;
+        for half in halves {
+            check_values(method, half)?;
+        }
+        for feature in features.iter().filter_map(|(id, _)| frame.feature(id)) {
+            check_values(method, &feature.mean)?;
+            for half in feature.halves.iter().flatten() {
+                check_values(method, half)?;
+            }
+        }
+        let variance = if scales(settings.scaling, frame.sampling) {
+            scaled_sample_variance(sampled, halves, &frame.samples)
+        } else {
+            sampled.map(|v| v.min(MAX_VARIANCE))
+        };
+        timer.finish("variance");
+        let features = features
+            .iter()
+            .filter_map(|(id, unit)| frame.feature(id).map(|feature| (id, feature, *unit)))
+            .map(|(id, feature, unit)| prefilter(method, frame, feature, id.name(), unit, settings))
+            .collect::<Result<_, _>>()?;
+        timer.finish("prefilter");
+        Ok(Self { frame, halves, variance, features })
+    }
+
+    /// Guide and features of the engine, and the halves to filter.
+    pub fn planes(&self) -> Planes<'_> {
+        Planes {
+            guide: kernel::channels(&self.frame.color.mean, &self.variance),
+            features: self.features.iter().map(Feature::channels).collect(),
+            targets: kernel::half_planes(self.halves),
+        }
+    }
+}
+
+/// Refuses values that the engine has no answer for, with the number of pixels that hold one.
+fn check_values(method: &str, image: &Image) -> Result<(), DenoiseError> {
+    // A NaN fails the comparison.
+    let good = |v: f32| v.abs() <= MAX_VALUE;
+    if image.data().iter().fold(true, |all, &v| all & good(v)) {
+        return Ok(());
+    }
+    let bad: Vec<usize> =
+        (0..image.pixels()).filter(|&p| image.planes().any(|plane| !good(plane[p]))).collect();
+    let (x, y) = (bad[0] % image.width(), bad[0] / image.width());
+    let what = "a value is not finite or above 1e15";
+    Err(DenoiseError::Undefined { method: method.into(), what, pixels: bad.len(), x, y })
+}

@@ -1,0 +1,164 @@
+//! Variances of means: from samples, from halves, and the one scaled to the other (Sec. 4).
+
+use noisefloor_frame::{Image, Samples};
+use noisefloor_kernels::nlm::MAX_VARIANCE;
+use rayon::prelude::*;
+
+/// Radius of the box over which the two variances are compared, pixels: 21×21.
+const BOX_RADIUS: usize = 10;
+/// Guards the ratio of both box means against 0/0 where nothing is noisy.
+const GUARD: f64 = 1e-10;
+/// Outer taps of the smoothing of squared half differences: a Gaussian of standard deviation 0.5 pixels, its middle 1.
+const TAP: f64 = 0.1353;
+
+/// How much of a pixel's mean comes from half A, and the factor of (A−B)² that makes it the variance of the mean.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shares {
+    pub a: f64,
+    pub square: f64,
+}
+
+/// Shares of pixel `p`: n_A/n and n_A·n_B/n², 1/2 and 1/4 for equal halves.
+pub(crate) fn shares(samples: &Samples, p: usize) -> Shares {
+    let (a, b) = samples.halves_at(p);
+    let (a, b) = (f64::from(a), f64::from(b));
+    let n = a + b;
+    if n == 0.0 {
+        // A pixel without samples: both halves are whatever they are.
+        return Shares { a: 0.5, square: 0.25 };
+    }
+    Shares { a: a / n, square: a * b / (n * n) }
+}
+
+/// Mean of both halves, weighted by their samples.
+pub(crate) fn mean_of_halves(halves: &[Image; 2], samples: &Samples) -> Image {
+    let [a, b] = halves;
+    let mut out = a.clone();
+    for c in 0..a.channels() {
+        let plane = out.plane_mut(c);
+        for (p, (value, (a, b))) in plane.iter_mut().zip(a.plane(c).iter().zip(b.plane(c))).enumerate() {
+            let share = shares(samples, p).a;
+            *value = (share * f64::from(*a) + (1.0 - share) * f64::from(*b)) as f32;
+        }
+    }
+    out
+}
+
+/// Variance of the mean from one squared difference of the halves: right on average, as noisy as one sample.
+fn half_variance(halves: &[Image; 2], samples: &Samples, channel: usize) -> Vec<f64> {
+    let (a, b) = (halves[0].plane(channel), halves[1].plane(channel));
+    let square = |p: usize| {
+        let d = f64::from(a[p]) - f64::from(b[p]);
+        shares(samples, p).square * d * d
+    };
+    (0..a.len()).into_par_iter().map(square).collect()
+}
+
+/// Mean of `values`, rows of `width`, over the box of `radius` pixels around each pixel, clipped at the border.
+///
+/// No value is ever taken off a sum again, so a bright pixel leaves nothing behind in sums that it is not in.
+#[must_use]
+pub fn box_mean(values: &[f64], width: usize, radius: usize) -> Vec<f64> {
+    if values.is_empty() || width == 0 {
+        return Vec::new();
+    }
+    let height = values.len() / width;
+    let mut rows = vec![0.0; values.len()];
+    rows.par_chunks_mut(width)
+        .zip(values.par_chunks(width))
+        .for_each(|(out, row)| line_sums(row, radius, out));
+    let mut out = vec![0.0; values.len()];
+    out.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+        let (first, last) = (y.saturating_sub(radius), (y + radius).min(height - 1));
+        for j in first..=last {
+            for (sum, value) in out.iter_mut().zip(&rows[j * width..]) {
+                *sum += value;
+            }
+        }
+        let tall = last - first + 1;
+        for (x, sum) in out.iter_mut().enumerate() {
+            let wide = (x + radius).min(width - 1) - x.saturating_sub(radius) + 1;
+            // The box has the pixel itself at least.
+            *sum /= (tall * wide) as f64;
+        }
+    });
+    out
+}
+
+/// Sums over 2·`radius`+1 neighbours in a line, zero outside: the end of one run of that length and the start of the next.
+fn line_sums(row: &[f64], radius: usize, out: &mut [f64]) {
+    let side = 2 * radius + 1;
+    let padded = (row.len() + 2 * radius).next_multiple_of(side);
+    let mut from_start = vec![0.0; padded];
+    from_start[radius..radius + row.len()].copy_from_slice(row);
+    let mut to_end = from_start.clone();
+    for i in 1..padded {
+        if i % side != 0 {
+            from_start[i] += from_start[i - 1];
+        }
+        let j = padded - 1 - i;
+        if !(j + 1).is_multiple_of(side) {
+            to_end[j] += to_end[j + 1];
+        }
+    }
+    for (x, sum) in out.iter_mut().enumerate() {
+        // A window that is exactly one run is in both.
+        *sum = if x.is_multiple_of(side) { to_end[x] } else { to_end[x] + from_start[x + side - 1] };
+    }
+}
+
+/// Sample variance of the mean scaled to the level of the two-buffer variance, per channel: the first has the structure, the second
+/// the right level under low-discrepancy sampling (Sec. 4).
+#[must_use]
+pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &Samples) -> Image {
+    let (width, height, channels) = (variance.width(), variance.height(), variance.channels());
+    let mut out = Image::new(width, height, channels);
+    for c in 0..channels {
+        let two = box_mean(&half_variance(halves, samples, c), width, BOX_RADIUS);
+        let plane: Vec<f64> = variance.plane(c).iter().copied().map(f64::from).collect();
+        let sample = box_mean(&plane, width, BOX_RADIUS);
+        for (p, value) in out.plane_mut(c).iter_mut().enumerate() {
+            let scaled = plane[p] * two[p] / (GUARD + sample[p]);
+            *value = scaled.clamp(0.0, f64::from(MAX_VARIANCE)) as f32;
+        }
+    }
+    out
+}
+
+/// Two-buffer variance of the mean, smoothed over 3×3 pixels with a Gaussian of standard deviation 0.5 pixels, clipped at
+/// the border: the residual variance of something filtered (Sec. 5).
+#[must_use]
+pub fn smoothed_half_variance(halves: &[Image; 2], samples: &Samples) -> Image {
+    let (width, height, channels) = (halves[0].width(), halves[0].height(), halves[0].channels());
+    let mut out = Image::new(width, height, channels);
+    for c in 0..channels {
+        let raw = half_variance(halves, samples, c);
+        let mut rows = vec![0.0; raw.len()];
+        rows.par_chunks_mut(width).zip(raw.par_chunks(width)).for_each(|(out, row)| {
+            for (x, value) in out.iter_mut().enumerate() {
+                let left = x.checked_sub(1).map(|i| row[i]);
+                *value = three(left, row[x], row.get(x + 1).copied());
+            }
+        });
+        let plane = out.plane_mut(c);
+        plane.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
+            for (x, value) in out.iter_mut().enumerate() {
+                let p = y * width + x;
+                let above = y.checked_sub(1).map(|_| rows[p - width]);
+                let below = rows.get(p + width).copied();
+                *value = three(above, rows[p], below).min(f64::from(MAX_VARIANCE)) as f32;
+            }
+        });
+    }
+    out
+}
+
+/// Weighted mean of a value and those beside it, as far as they exist.
+fn three(before: Option<f64>, middle: f64, after: Option<f64>) -> f64 {
+    let (mut sum, mut weight) = (middle, 1.0);
+    for beside in [before, after].into_iter().flatten() {
+        sum += TAP * beside;
+        weight += TAP;
+    }
+    sum / weight
+}
