@@ -18,7 +18,7 @@ use crate::summary::Summary;
 /// stopped is analysed as far as it went.
 ///
 /// `recompute` computes the metrics again from the kept images and references, as after a change of their definitions, and
-/// replaces them in the records. Coverage, bounds and times stay as they were recorded.
+/// replaces them in the records. Coverage, bounds, estimates of a method's own error and times stay as they were recorded.
 ///
 /// # Errors
 /// [`HarnessError::Io`] or [`HarnessError::Kept`] if the folder is none of a study or a file of it is damaged,

@@ -288,7 +288,8 @@ pub struct CoverageSummary {
     pub confidence: f64,
     /// Pixel class or `all`.
     pub class: String,
-    /// Fraction of pixel-channels covered, allowing for the reference's noise; pixels without variance count as covered if constant.
+    /// Fraction of pixel-channels covered, allowing for the reference's noise; pixels without variance count as
+    /// covered if constant.
     pub covered: Interval,
     /// The same without the allowance.
     pub covered_uncorrected: Interval,

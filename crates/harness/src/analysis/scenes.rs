@@ -21,7 +21,13 @@ pub(super) fn times(ratio: f64) -> f64 {
 }
 
 pub(super) fn scenes(index: &Index<'_>, records: &[Record]) -> Vec<SceneSummary> {
-    index.scenes().iter().map(|scene| summary(scene, records)).collect()
+    let all = index.scenes();
+    let title = |scene: &SceneContext| {
+        // Frames of one sequence are told apart by their ids.
+        let shared = all.iter().any(|other| other.id != scene.id && other.title == scene.title);
+        if shared { format!("{} · {}", scene.title, scene.id) } else { scene.title.clone() }
+    };
+    all.iter().map(|scene| SceneSummary { title: title(scene), ..summary(scene, records) }).collect()
 }
 
 fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {

@@ -33,8 +33,9 @@ pub(super) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metri
     levels
 }
 
-/// Ratio of a row's errors to another row's on the same frames; `within` is the standard error of its logarithm within one image,
-/// for where there is no second replicate. `None` where no replicate has both or a corrected error is not positive.
+/// Ratio of a row's errors to another row's on the same frames; `within` is the standard error of its logarithm within
+/// one image, for where there is no second replicate. `None` where no replicate has both or a corrected error is not
+/// positive.
 pub(super) fn error_ratio(
     own: &[&Record],
     other: &[&Record],

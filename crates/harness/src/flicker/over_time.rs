@@ -1,9 +1,9 @@
 //! Variance over the frames of each pixel's and channel's error, frame by frame.
 //!
-//! With d_t the error of the output against the truth and ρ_t that of the reference, of variance v, the measured error is d_t − ρ_t.
-//! Its unbiased variance over T frames has the expectation S² + v, S² that of d_t, and given d_t the references spread it, for
-//! normal noise, by (4·S²·v + 2·v²)/(T−1); the mean square by (4·D²·v + 2·v²)/T, D² the mean of d_t². Both are estimated without bias
-//! by putting the measured number less v in the place of S² and D².
+//! With d_t the error of the output against the truth and ρ_t that of the reference, of variance v, the measured error
+//! is d_t − ρ_t. Its unbiased variance over T frames has the expectation S² + v, S² that of d_t, and given d_t the
+//! references spread it, for normal noise, by (4·S²·v + 2·v²)/(T−1); the mean square by (4·D²·v + 2·v²)/T, D² the mean
+//! of d_t². Both are estimated without bias by putting the measured number less v in the place of S² and D².
 
 use noisefloor_frame::{Image, Reference, Variance};
 

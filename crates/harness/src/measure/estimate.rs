@@ -91,8 +91,8 @@ fn deciles(mut pairs: Vec<(f64, f64)>) -> Vec<EstimateMeans> {
     (0..BINS).filter_map(mean).collect()
 }
 
-/// Standard error of the logarithm of the ratio of the two totals: the spread of each block's share of the one minus its share
-/// of the other, as for ratios of errors. `None` with fewer than 2 blocks or a total that is not positive.
+/// Standard error of the logarithm of the ratio of the two totals: the spread of each block's share of the one minus
+/// its share of the other, as for ratios of errors. `None` with fewer than 2 blocks or a total that is not positive.
 fn ratio_se(blocks: &[Sums]) -> Option<f64> {
     let estimated: f64 = blocks.iter().map(|b| b.estimated).sum();
     let measured: f64 = blocks.iter().map(|b| b.measured).sum();

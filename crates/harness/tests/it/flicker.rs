@@ -158,6 +158,8 @@ fn frames_that_are_rendered_have_the_noise_of_their_references_taken_out() {
     let expected = variance - noise;
     assert!((blurred.variance.value / expected - 1.0).abs() < 1e-9, "{:?} {expected}", blurred.variance);
     assert!(blurred.ratio_to_first.is_some() && blurred.first == "mc");
+    let titles: Vec<&str> = summary.scenes.iter().map(|scene| scene.title.as_str()).collect();
+    assert!(titles[1].ends_with(" · spin-1") && titles[0] != titles[1], "{titles:?}");
 }
 
 #[test]

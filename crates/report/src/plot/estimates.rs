@@ -9,8 +9,8 @@ use super::style::MUTED;
 use crate::format;
 use crate::index::Index;
 
-/// Log-log plot of all rows and levels of a scene, one point per tenth of the pixel-channels by rank of the estimate; nothing
-/// if no tenth has a positive estimate.
+/// Log-log plot of all rows and levels of a scene, one point per tenth of the pixel-channels by rank of the estimate;
+/// nothing if no tenth has a positive estimate.
 pub(crate) fn estimates(index: &Index<'_>, scene: &SceneSummary) -> Option<Figure> {
     let of_scene = index.summary.estimates.iter().filter(|e| e.scene == scene.id && e.class == "all");
     let lines: Vec<(&EstimateSummary, Vec<Datum>)> =
@@ -58,8 +58,8 @@ fn data(e: &EstimateSummary) -> Vec<Datum> {
     e.deciles.iter().enumerate().filter_map(|(k, bin)| datum(e, k, bin)).collect()
 }
 
-/// A tenth, or nothing where a logarithm has no place for it. A measured error that is not positive is an upper limit at the end
-/// of its interval.
+/// A tenth, or nothing where a logarithm has no place for it. A measured error that is not positive is an upper limit
+/// at the end of its interval.
 fn datum(e: &EstimateSummary, k: usize, bin: &EstimateBin) -> Option<Datum> {
     let (x, measured) = (bin.estimated.value, &bin.measured);
     let limit = measured.value <= 0.0;
