@@ -28,6 +28,8 @@ pub enum Need {
     Feature(FeatureId),
     /// A feature's mean and its variance.
     FeatureVariance(FeatureId),
+    /// A feature's half buffers.
+    FeatureHalves(FeatureId),
     /// The virtual flash image: either ready-made or in parts.
     Flash,
     /// Variance of the virtual flash image (for parts: of both).
@@ -45,6 +47,7 @@ impl Need {
             Self::IndependentSamples => frame.sampling == Sampling::Independent,
             Self::Feature(id) => frame.feature(id).is_some(),
             Self::FeatureVariance(id) => frame.feature(id).is_some_and(|f| f.variance.is_some()),
+            Self::FeatureHalves(id) => frame.feature(id).is_some_and(|f| f.halves.is_some()),
             Self::Flash => frame.flash.is_some(),
             Self::FlashVariance => match &frame.flash {
                 Some(Flash::Parts { base, light, .. }) => base.variance.is_some() && light.variance.is_some(),
@@ -64,6 +67,7 @@ impl fmt::Display for Need {
             Self::IndependentSamples => f.write_str("independent samples"),
             Self::Feature(id) => write!(f, "feature `{id}`"),
             Self::FeatureVariance(id) => write!(f, "feature `{id}` with its variance"),
+            Self::FeatureHalves(id) => write!(f, "feature `{id}` with its half buffers"),
             Self::Flash => f.write_str("virtual flash image"),
             Self::FlashVariance => f.write_str("variance of the virtual flash image"),
         }

@@ -5,6 +5,7 @@ mod cells;
 mod compare;
 mod convergence;
 mod coverage;
+mod equal_time;
 mod estimates;
 mod flicker;
 mod index;
@@ -43,6 +44,7 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
         comparisons: compare::comparisons(&index),
         paper: paper::paper(&index),
         estimates: estimates::estimates(&index),
+        equal_time: equal_time::equal_time(&index),
         flicker: flicker::flicker(&index, &sequences.measured),
         warnings: Vec::new(),
     };

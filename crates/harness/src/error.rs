@@ -112,6 +112,14 @@ pub enum HarnessError {
         /// What does not fit.
         source: noisefloor_stats::ShapeError,
     },
+    /// A method could not say where samples are needed.
+    #[error("row `{label}`: no sampling density: {reason}")]
+    Density {
+        /// Label of the row.
+        label: String,
+        /// Why.
+        reason: String,
+    },
     /// The study's folder is in use by another process.
     #[error("{} is in use by another noisefloor process", path.display())]
     Locked {

@@ -32,8 +32,8 @@ pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::reanalyse;
 pub use run::{StudyRun, run};
 pub use study::{
-    BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio, ReferenceSpec, Replicates,
-    SceneSource, SceneSpec, Shot, Study, Timing, builtin_studies,
+    AdaptiveFrames, BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio,
+    ReferenceSpec, Replicates, RowFrames, SceneSource, SceneSpec, Shot, Study, Timing, builtin_studies,
 };
 
 /// The id of the baseline: the input itself.

@@ -44,6 +44,11 @@ pub(crate) fn void(sampling: Sampling) -> Option<&'static str> {
 /// Key in a frame's provenance: which photon maps it was rendered with.
 pub(crate) const PHOTON_MAPS: &str = "photon_maps";
 
+/// Key in a frame's provenance: in how many rounds it was rendered, if samples were placed by what was seen.
+pub(crate) const ADAPTIVE: &str = "adaptive_rounds";
+/// Key in a frame's provenance: seconds that the decisions took where to place samples.
+pub(crate) const DENSITY_SECONDS: &str = "density_seconds";
+
 /// Which photon maps carried the light of a frame, if any did. A photon-mapped frame that does not say it, because it was
 /// rendered alone and imported, counts as one whose maps the truth does not share.
 pub(crate) fn photon_maps(frame: &Frame) -> Option<Maps> {
@@ -97,6 +102,7 @@ impl<'a> Measure<'a> {
     fn intervals(&self) -> Option<Observed<'_>> {
         let sound = void(self.frame.sampling).is_none()
             && photon_maps(self.frame) != Some(Maps::Fresh)
+            && !self.frame.provenance.extra.contains_key(ADAPTIVE)
             && self.frame.samples.total().uniform().is_some_and(|n| n >= 2);
         self.observed().filter(|_| sound)
     }

@@ -4,13 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_denoiser::{Method, MethodCard, Need, Registry};
 use noisefloor_render::{Keep, Quantity};
-use serde_json::json;
+use serde_json::{Map, Value, json};
 
 use crate::cache::{Key, key_of};
 use crate::error::{HarnessError, Place};
 use crate::record::RECORD_SCHEMA;
 use crate::source::{FrameSpec, Scene};
-use crate::study::Study;
+use crate::study::{RowFrames, SceneSpec, Study};
 
 /// A row ready to run.
 pub(crate) struct Row {
@@ -19,6 +19,7 @@ pub(crate) struct Row {
     pub(crate) slug: String,
     pub(crate) method: Method,
     pub(crate) card: MethodCard,
+    pub(crate) frames: RowFrames,
 }
 
 /// Everything that will be done, before anything is done.
@@ -34,17 +35,22 @@ impl Plan {
         registry: &Registry,
         size: Option<(usize, usize)>,
     ) -> Result<Self, HarnessError> {
-        let rows = rows(study, registry)?;
+        let rows = rows(study, registry, None)?;
         let recorded = recorded(&rows);
-        let scenes = study.scenes.iter().map(|spec| Scene::open(study, spec, size, &recorded));
-        let scenes = scenes.collect::<Result<Vec<_>, _>>()?;
+        let mut scenes = Vec::new();
+        for spec in &study.scenes {
+            let mut scene = Scene::open(study, spec, size, &recorded)?;
+            scene.rows = self::rows(study, registry, Some(spec))?;
+            scene.open_beside(study, spec, size, &recorded)?;
+            scenes.push(scene);
+        }
         same_sizes(study, &scenes)?;
         Ok(Self { scenes, rows })
     }
 
     /// Content hash of all that determines the numbers of a cell.
     pub(crate) fn cell_key(&self, study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row) -> Key {
-        key_of(&json!({
+        let mut all = json!({
             "record": RECORD_SCHEMA,
             "build": crate::machine::build_id(),
             "frame": frame.key,
@@ -56,7 +62,13 @@ impl Plan {
             "timing": study.timing,
             "diagnostics": wants_diagnostics(study, frame).then(|| json!([study.probe])),
             "within": scene.single(),
-        }))
+        });
+        let beside: Vec<Key> = scene.beside(frame, row).map(|(_, frame)| frame.key).collect();
+        // Cells without neighbouring frames keep the keys that they had when there were none.
+        if !beside.is_empty() {
+            all["beside"] = json!(beside);
+        }
+        key_of(&all)
     }
 }
 
@@ -83,21 +95,52 @@ fn same_sizes(study: &Study, scenes: &[Scene]) -> Result<(), HarnessError> {
     Ok(())
 }
 
-fn rows(study: &Study, registry: &Registry) -> Result<Vec<Row>, HarnessError> {
+/// The rows as they run on a scene, or with the study's own parameters.
+fn rows(study: &Study, registry: &Registry, scene: Option<&SceneSpec>) -> Result<Vec<Row>, HarnessError> {
+    let mut unused: BTreeSet<&String> = scene.iter().flat_map(|scene| scene.set.keys()).collect();
     let mut slugs = BTreeSet::new();
     let mut rows = Vec::new();
     for row in &study.methods {
-        let method = registry.build(&row.id, &row.set).map_err(|source| HarnessError::Method {
-            place: Place { file: format!("study `{}`", study.name), line: row.line },
-            label: row.label.clone(),
-            source: Box::new(source),
-        })?;
+        let build = |set: &Map<String, Value>| {
+            registry.build(&row.id, set).map_err(|source| HarnessError::Method {
+                place: Place { file: format!("study `{}`", study.name), line: row.line },
+                label: row.label.clone(),
+                source: Box::new(source),
+            })
+        };
+        let mut method = build(&row.set)?;
+        let mut set = row.set.clone();
+        for (name, value) in scene.iter().flat_map(|scene| &scene.set) {
+            if method.params.get(name).is_some() {
+                unused.remove(name);
+                set.entry(name.clone()).or_insert_with(|| value.clone());
+            }
+        }
+        if set != row.set {
+            method = build(&set)?;
+        }
+        if matches!(row.frames, RowFrames::Adaptive(_)) && method.denoiser.adaptive().is_none() {
+            return Err(HarnessError::Field {
+                place: Place { file: format!("study `{}`", study.name), line: row.line },
+                field: format!("row `{}`: adaptive", row.label),
+                value: format!("`{}`", row.id),
+                allowed: "a method that can say where samples are needed".into(),
+            });
+        }
         let mut slug = slug(&row.label);
         while !slugs.insert(slug.clone()) {
             slug.push('_');
         }
         let card = method.denoiser.card();
-        rows.push(Row { label: row.label.clone(), slug, method, card });
+        rows.push(Row { label: row.label.clone(), slug, method, card, frames: row.frames.clone() });
+    }
+    if let (Some(name), Some(scene)) = (unused.into_iter().next(), scene) {
+        return Err(HarnessError::Field {
+            place: Place { file: format!("study `{}`", study.name), line: None },
+            field: format!("scene `{}`: set", scene.id),
+            value: format!("`{name}`"),
+            allowed: "parameters that the method of some row has".into(),
+        });
     }
     Ok(rows)
 }
@@ -119,18 +162,20 @@ fn slug(label: &str) -> String {
 /// What a renderer should record so that every row has what it needs and may use.
 fn recorded(rows: &[Row]) -> BTreeMap<Quantity, Keep> {
     let mut out = BTreeMap::new();
-    let mut add = |quantity: Option<Quantity>, variance: bool| {
+    let mut add = |quantity: Option<Quantity>, variance: bool, halves: bool| {
         if let Some(quantity) = quantity {
             let keep = out.entry(quantity).or_insert(Keep::MEAN);
             keep.variance |= variance;
+            keep.halves |= halves;
         }
     };
     for need in rows.iter().flat_map(|row| row.card.needs.iter().chain(&row.card.uses)) {
         match need {
-            Need::Feature(id) => add(Quantity::from_name(id.name()), false),
-            Need::FeatureVariance(id) => add(Quantity::from_name(id.name()), true),
-            Need::Flash => add(Some(Quantity::Flash), false),
-            Need::FlashVariance => add(Some(Quantity::Flash), true),
+            Need::Feature(id) => add(Quantity::from_name(id.name()), false, false),
+            Need::FeatureVariance(id) => add(Quantity::from_name(id.name()), true, false),
+            Need::FeatureHalves(id) => add(Quantity::from_name(id.name()), false, true),
+            Need::Flash => add(Some(Quantity::Flash), false, false),
+            Need::FlashVariance => add(Some(Quantity::Flash), true, false),
             // The colour always comes with variance and halves; samples are the study's business.
             _ => {}
         }

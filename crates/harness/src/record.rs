@@ -50,6 +50,12 @@ pub struct Record {
     pub spp: u32,
     /// Replicate, from 0.
     pub replicate: u32,
+    /// Samples per pixel of the frame, if it has others than its level.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame_spp: Option<u32>,
+    /// How the frame's samples were placed, if not evenly.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub adaptive: Option<AdaptiveRecord>,
     /// Method id such as `virtual-flash`.
     pub method: String,
     /// Label of the row in the study; unique within it, equal to the method id unless the study says otherwise.
@@ -104,6 +110,22 @@ pub struct Record {
     /// Diagnostic images, name to path relative to the study's folder.
     #[serde(default)]
     pub diagnostics: BTreeMap<String, String>,
+}
+
+/// A frame whose samples were placed in rounds, where its row's method asked for them. They depend on what was seen, so intervals
+/// and bounds say nothing of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct AdaptiveRecord {
+    /// Rounds, the first of them uniform.
+    pub rounds: u32,
+    /// Mean over the pixels.
+    pub mean_spp: f64,
+    /// Fewest samples of a pixel.
+    pub least: u32,
+    /// Most samples of a pixel.
+    pub most: u32,
+    /// Seconds that the decisions took, which `seconds.render` includes.
+    pub density_seconds: Option<f64>,
 }
 
 /// A method's estimate of its own squared error beside the squared error that was measured.

@@ -177,23 +177,37 @@ fn keep_finished(
 fn cells<'a>(
     study: &'a Study,
     plan: &'a Plan,
-) -> impl Iterator<Item = ((&'a Scene, &'a FrameSpec, &'a Row), Key)> {
+) -> impl Iterator<Item = ((&'a Scene, FrameSpec, &'a Row), Key)> {
     plan.scenes.iter().flat_map(move |scene| {
         scene.frames.iter().flat_map(move |frame| {
-            plan.rows.iter().map(move |row| ((scene, frame, row), plan.cell_key(study, scene, frame, row)))
+            scene.rows.iter().map(move |row| {
+                let own = scene.frame_of(frame, row);
+                let key = plan.cell_key(study, scene, &own, row);
+                ((scene, own, row), key)
+            })
         })
     })
 }
 
 fn workload(study: &Study, plan: &Plan, cache: &Cache, layout: &Layout, kept: &BTreeSet<Key>) -> Workload {
     let mut work = Workload { kept: kept.len() as u64, ..Workload::default() };
+    // Scenes of one sequence may share frames.
+    let mut seen = BTreeSet::new();
     for scene in &plan.scenes {
-        let open = |frame: &&FrameSpec| {
-            plan.rows.iter().any(|row| !kept.contains(&plan.cell_key(study, scene, frame, row)))
-        };
-        let frames: Vec<&FrameSpec> = scene.frames.iter().filter(open).collect();
-        let reference = !frames.is_empty() || prepare::kept_context(layout, scene).is_none();
-        work.samples += scene.samples(cache, frames.into_iter(), reference);
+        let mut open = false;
+        for (frame, rows) in cell::frames(study, plan, scene, kept) {
+            open = true;
+            for (distance, beside) in rows.iter().flat_map(|(row, _)| scene.beside(&frame, row)) {
+                if let Some(moment) = scene.moment(distance).filter(|_| seen.insert(beside.key.clone())) {
+                    work.samples += moment.samples(cache, std::iter::once(&beside), false);
+                }
+            }
+            if seen.insert(frame.key.clone()) {
+                work.samples += scene.samples(cache, std::iter::once(&frame), false);
+            }
+        }
+        let reference = open || prepare::kept_context(layout, scene).is_none();
+        work.samples += scene.samples(cache, std::iter::empty(), reference);
     }
     work.cells = cells(study, plan).filter(|(_, key)| !kept.contains(key)).count() as u64;
     work
@@ -222,5 +236,6 @@ fn describe(row: &Row) -> RowContext {
             estimates_error: card.claims.estimates_error,
         },
         consistent: card.claims.consistent,
+        frames: row.frames.clone(),
     }
 }

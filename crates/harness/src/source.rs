@@ -14,7 +14,8 @@ use serde_json::json;
 use crate::cache::{Cache, Key, key_of, seed_of};
 use crate::error::HarnessError;
 use crate::observer::Observer;
-use crate::study::{SceneSource, SceneSpec, Study};
+use crate::plan::Row;
+use crate::study::{AdaptiveFrames, RowFrames, SceneSource, SceneSpec, Shot, Study};
 
 pub(crate) use classes::PixelClasses;
 use folder::Imported;
@@ -29,6 +30,28 @@ pub(crate) struct FrameSpec {
     pub(crate) seed: u64,
     /// Hash of all that determines the frame.
     pub(crate) key: Key,
+    pub(crate) kind: FrameKind,
+}
+
+/// How a frame differs from the study's own of its level and replicate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum FrameKind {
+    /// Not at all.
+    Uniform,
+    /// So many samples in every pixel instead of the level's.
+    Samples(u32),
+    /// Rendered in rounds.
+    Adaptive(AdaptiveFrames),
+}
+
+impl FrameSpec {
+    /// Samples per pixel, on average.
+    pub(crate) fn samples(&self) -> u32 {
+        match self.kind {
+            FrameKind::Samples(spp) => spp,
+            FrameKind::Uniform | FrameKind::Adaptive(_) => self.spp,
+        }
+    }
 }
 
 /// A scene of a study, opened.
@@ -48,6 +71,12 @@ pub(crate) struct Scene {
     pub(crate) reference_spp: u64,
     /// Sampling of the reference, or `exact`.
     pub(crate) reference_sampling: String,
+    /// The study's rows with this scene's parameters.
+    pub(crate) rows: Vec<Row>,
+    /// Samples per pixel of frames of equal time.
+    equal_time_spp: Option<u32>,
+    /// The scene at other moments of its sequence, by the distance in frames, as far as rows look at them.
+    beside: BTreeMap<i64, Scene>,
     source: Source,
 }
 
@@ -73,6 +102,63 @@ impl Scene {
         }
     }
 
+    /// Opens the moments of a rendered sequence that the rows look at beside the scene's own.
+    pub(crate) fn open_beside(
+        &mut self,
+        study: &Study,
+        spec: &SceneSpec,
+        size: Option<(usize, usize)>,
+        recorded: &BTreeMap<Quantity, Keep>,
+    ) -> Result<(), HarnessError> {
+        if !matches!(self.source, Source::Rendered(_)) {
+            return Ok(());
+        }
+        let reach = self.rows.iter().map(|row| row.card.neighbors).max().unwrap_or(0) as i64;
+        for distance in (-reach..=reach).filter(|distance| *distance != 0) {
+            if let Ok(frame) = u32::try_from(i64::from(spec.shot.frame) + distance) {
+                let moment = SceneSpec { shot: Shot { frame, ..spec.shot }, ..spec.clone() };
+                self.beside.insert(distance, Self::open(study, &moment, size, recorded)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// The frame that a row denoises, from the study's own of its level and replicate.
+    pub(crate) fn frame_of(&self, frame: &FrameSpec, row: &Row) -> FrameSpec {
+        match (&self.source, &row.frames, self.equal_time_spp) {
+            (Source::Rendered(rendered), RowFrames::EqualTime { .. }, Some(spp)) => {
+                rendered.with_samples(frame, spp)
+            }
+            (Source::Rendered(rendered), RowFrames::Adaptive(adaptive), _) => {
+                rendered.in_rounds(frame, *adaptive, row)
+            }
+            // The study's checks leave no other rows with frames of their own.
+            _ => frame.clone(),
+        }
+    }
+
+    /// The neighbouring moments that a row looks at beside a frame, each with its frame, earlier ones first.
+    pub(crate) fn beside<'a>(
+        &'a self,
+        frame: &FrameSpec,
+        row: &Row,
+    ) -> impl Iterator<Item = (i64, FrameSpec)> + use<'a> {
+        let reach = row.card.neighbors as i64;
+        let (spp, replicate, kind) = (frame.spp, frame.replicate, frame.kind);
+        self.beside
+            .iter()
+            .filter(move |(distance, _)| distance.abs() <= reach && kind == FrameKind::Uniform)
+            .filter_map(move |(distance, scene)| {
+                let same = |f: &&FrameSpec| f.spp == spp && f.replicate == replicate;
+                scene.frames.iter().find(same).map(|frame| (*distance, frame.clone()))
+            })
+    }
+
+    /// The scene at a neighbouring moment.
+    pub(crate) fn moment(&self, distance: i64) -> Option<&Scene> {
+        self.beside.get(&distance)
+    }
+
     /// Replicates per level.
     pub(crate) fn replicates(&self) -> BTreeMap<u32, u32> {
         let mut out = BTreeMap::new();
@@ -96,20 +182,21 @@ impl Scene {
     ) -> u64 {
         let Source::Rendered(rendered) = &self.source else { return 0 };
         let pixels = (self.width * self.height) as u64;
-        let frames = frames.filter(|f| !cache.has(&f.key)).map(|f| u64::from(f.spp));
+        let frames = frames.filter(|f| !cache.has(&f.key)).map(|f| u64::from(f.samples()));
         let parts = if reference { rendered.missing_reference_samples(cache) } else { 0 };
         pixels * (frames.sum::<u64>() + parts)
     }
 
-    /// Renders, draws or reads a frame.
+    /// Renders, draws or reads a frame; `row` is who steers it, if it is adaptive.
     pub(crate) fn frame(
         &self,
         spec: &FrameSpec,
+        row: Option<&Row>,
         cache: &Cache,
         observer: &dyn Observer,
     ) -> Result<Frame, HarnessError> {
         match &self.source {
-            Source::Rendered(rendered) => rendered.frame(spec, cache, observer),
+            Source::Rendered(rendered) => rendered.frame(spec, row, cache, observer),
             Source::Synthetic(scene) => Ok(scene.render(spec.spp, spec.seed)),
             Source::Imported(folder) => folder.frame(spec, observer),
         }
@@ -181,8 +268,18 @@ fn synthetic(
         reference_key: key_of(&json!({ "truth": description })),
         reference_spp: 0,
         reference_sampling: "exact".into(),
+        rows: Vec::new(),
+        equal_time_spp: None,
+        beside: BTreeMap::new(),
         source: Source::Synthetic(scene),
     })
+}
+
+/// Random seed of a noisy frame.
+fn frame_seed(study_seed: u64, identity: &serde_json::Value, spp: u32, replicate: u32) -> u64 {
+    seed_of(&json!({
+        "purpose": "frame", "seed": study_seed, "scene": identity, "spp": spp, "replicate": replicate
+    }))
 }
 
 /// The frames of a scene whose random seeds follow from study seed, scene, level and replicate, never from the study's
@@ -196,10 +293,8 @@ fn frame_specs(
     let mut frames = Vec::new();
     for &spp in study.levels(spec) {
         for replicate in 0..study.replicates(spec, spp) {
-            let seed = seed_of(&json!({
-                "purpose": "frame", "seed": study.seed, "scene": identity, "spp": spp, "replicate": replicate
-            }));
-            frames.push(FrameSpec { spp, replicate, seed, key: key(spp, seed) });
+            let seed = frame_seed(study.seed, identity, spp, replicate);
+            frames.push(FrameSpec { spp, replicate, seed, key: key(spp, seed), kind: FrameKind::Uniform });
         }
     }
     frames

@@ -2,6 +2,7 @@ mod builtin;
 mod check;
 mod compare;
 mod folder;
+mod frames;
 mod of_scene;
 mod parse;
 mod plain;
@@ -17,6 +18,7 @@ use serde_json::{Map, Value};
 
 pub use builtin::{BuiltinStudy, builtin_studies};
 pub use compare::{PaperComparison, PaperRatio};
+pub use frames::{AdaptiveFrames, RowFrames};
 pub use shot::{Maps, Shot};
 
 /// Kinds of plots that a study can choose from.
@@ -136,6 +138,12 @@ pub struct SceneSpec {
     /// Which moment of it is shown, and how its light is carried; for rendered scenes.
     #[serde(default)]
     pub shot: Shot,
+    /// Parameters that rows take here instead of their own defaults, where a row's method has them and the row does not set them.
+    #[serde(default)]
+    pub set: Map<String, Value>,
+    /// Samples per pixel of frames that get as much time as another row with its denoising, see [`RowFrames::EqualTime`].
+    #[serde(default)]
+    pub equal_time_spp: Option<u32>,
     /// Name of the sequence that it is a frame of, in the order of [`Shot::frame`]; flicker is measured over it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sequence: Option<String>,
@@ -165,6 +173,9 @@ pub struct MethodRow {
     pub label: String,
     /// Overrides of the method's defaults.
     pub set: Map<String, Value>,
+    /// Which frames it gets.
+    #[serde(default)]
+    pub frames: RowFrames,
     /// Line in the study file, for messages.
     #[serde(skip)]
     pub line: Option<usize>,
@@ -175,7 +186,7 @@ impl MethodRow {
     #[must_use]
     pub fn new(id: impl Into<String>) -> Self {
         let id = id.into();
-        Self { label: id.clone(), id, set: Map::new(), line: None }
+        Self { label: id.clone(), id, set: Map::new(), frames: RowFrames::Uniform, line: None }
     }
 
     /// Overrides one parameter.

@@ -72,6 +72,9 @@ pub struct Summary {
     /// Methods' estimates of their own error beside the measured one, per scene × spp × row × pixel class.
     #[serde(default)]
     pub estimates: Vec<EstimateSummary>,
+    /// Samples of rows that get as much time as another row, per scene × spp.
+    #[serde(default)]
+    pub equal_time: Vec<EqualTime>,
     /// Errors that change from frame to frame, per sequence × spp × row.
     #[serde(default)]
     pub flicker: Vec<FlickerSummary>,
@@ -478,4 +481,26 @@ pub struct PairResult {
     pub p_adjusted: f64,
     /// Whether they can be told apart at 95 %.
     pub distinguishable: bool,
+}
+
+/// A row that gets as much time as another takes with its denoising.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct EqualTime {
+    /// Scene id.
+    pub scene: String,
+    /// Level of the other row.
+    pub spp: u32,
+    /// Label of the row.
+    pub label: String,
+    /// Label of the other row.
+    pub with: String,
+    /// Samples per pixel that its frames had, as the study says.
+    pub used: u32,
+    /// Samples per pixel that the medians of this run imply: the level, and the other row's denoising time over the time of a
+    /// sample per pixel. Of an adaptive row all its time, since placing samples is part of it.
+    pub implied: Option<f64>,
+    /// Median seconds of the other row's denoising.
+    pub denoise_seconds: f64,
+    /// Median seconds of one sample in every pixel, rendered plainly.
+    pub seconds_per_sample: Option<f64>,
 }

@@ -29,6 +29,7 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
     for name in &params.features {
         card.uses.push(Need::Feature(FeatureId::from_name(name)));
         card.uses.push(Need::FeatureVariance(FeatureId::from_name(name)));
+        card.uses.push(Need::FeatureHalves(FeatureId::from_name(name)));
     }
     card.neighbors = params.neighbors;
     card.claims.estimates_error = true;

@@ -140,7 +140,8 @@ impl Cell<'_> {
             .filter_map(|(id, fit)| {
                 let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, id)).collect();
                 let reference = reference_se(self.records, id);
-                let (spp, top) = (f64::from(self.spp), f64::from(top));
+                let spent = self.records.first().and_then(|r| r.frame_spp).unwrap_or(self.spp);
+                let (spp, top) = (f64::from(spent), f64::from(top));
                 let multiplier = equal_error_multiplier(fit, spp, &errors, reference, top, LEVEL)?;
                 let interval = told(multiplier.interval, Source::Replicates, None);
                 Some((id.clone(), (interval, multiplier.extrapolated)))

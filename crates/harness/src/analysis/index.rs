@@ -2,7 +2,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::context::{Context, Row, SceneContext};
 use crate::record::{Outcome, Record};
-use crate::study::Study;
+use crate::study::{RowFrames, Study};
 use crate::summary::Skipped;
 
 /// Finished cells by scene, level and row, in the order of the study.
@@ -42,7 +42,8 @@ impl<'a> Index<'a> {
 
     /// The row that stands for plain Monte Carlo, if the study has one.
     pub(super) fn baseline(&self) -> Option<&'a Row> {
-        self.rows().iter().find(|row| row.summary.method == crate::BASELINE)
+        let plain = |row: &&Row| row.summary.method == crate::BASELINE && row.frames == RowFrames::Uniform;
+        self.rows().iter().find(plain)
     }
 
     /// All levels of all scenes, ascending.

@@ -3,8 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use noisefloor_denoiser::Output;
-use noisefloor_frame::{Frame, Reference};
+use noisefloor_denoiser::{Input, Output};
+use noisefloor_frame::{Counts, Frame, Image, Reference};
 use noisefloor_metrics::{Measurer, block_bootstrap};
 
 use crate::cache::{Cache, Key};
@@ -14,12 +14,13 @@ use crate::machine;
 use crate::measure::{Measure, ratio_within_se};
 use crate::observer::Stage;
 use crate::plan::{Plan, Row, wants_diagnostics};
-use crate::record::{NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
+use crate::record::{AdaptiveRecord, NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
 use crate::run::denoise::{Denoised, denoise};
 use crate::run::prepare::{kept_context, truth};
 use crate::run::{BOOTSTRAP_IMAGES, StudyRun, bootstrap_seed};
-use crate::source::{FrameSpec, Scene};
+use crate::source::{FrameKind, FrameSpec, Scene};
 use crate::store::{Layout, Records};
+use crate::study::Study;
 
 /// Runs the cells of a scene.
 pub(super) struct Runner<'a> {
@@ -38,16 +39,7 @@ impl Runner<'_> {
         kept: &BTreeSet<Key>,
     ) -> Result<SceneContext, HarnessError> {
         let (study, scene) = (self.request.study, self.scene);
-        let open = |frame: &FrameSpec| -> Vec<(&Row, Key)> {
-            let keyed = self.plan.rows.iter().map(|row| (row, self.plan.cell_key(study, scene, frame, row)));
-            keyed.filter(|(_, key)| !kept.contains(key)).collect()
-        };
-        let work: Vec<(&FrameSpec, Vec<(&Row, Key)>)> = scene
-            .frames
-            .iter()
-            .map(|frame| (frame, open(frame)))
-            .filter(|(_, rows)| !rows.is_empty())
-            .collect();
+        let work = frames(study, self.plan, scene, kept);
         if work.is_empty()
             && let Some(context) = kept_context(self.layout, scene)
         {
@@ -61,7 +53,8 @@ impl Runner<'_> {
                 spp: spec.spp,
                 replicate: spec.replicate,
             });
-            let mut frame = scene.frame(spec, self.cache, self.request.observer)?;
+            let steering = rows.first().map(|(row, _)| *row);
+            let mut frame = scene.frame(&spec, steering, self.cache, self.request.observer)?;
             let hygiene = frame.sanitize();
             let non_finite = NonFinite {
                 input_pixels: hygiene.invalid_pixels,
@@ -75,8 +68,9 @@ impl Runner<'_> {
                 measurer: &measurer,
                 measure,
                 reference: &truth.reference,
-                spec,
+                spec: &spec,
                 frame: &frame,
+                beside: self.beside(&spec, &rows)?,
             };
             for (row, key) in rows {
                 if self.request.observer.cancelled() {
@@ -89,6 +83,44 @@ impl Runner<'_> {
         }
         Ok(context)
     }
+
+    /// The neighbouring frames that some of the rows look at, by their distance.
+    fn beside(&self, spec: &FrameSpec, rows: &[(&Row, Key)]) -> Result<BTreeMap<i64, Frame>, HarnessError> {
+        let mut frames = BTreeMap::new();
+        for (distance, spec) in rows.iter().flat_map(|(row, _)| self.scene.beside(spec, row)) {
+            if let Some(moment) = self.scene.moment(distance).filter(|_| !frames.contains_key(&distance)) {
+                let mut frame = moment.frame(&spec, None, self.cache, self.request.observer)?;
+                frame.sanitize();
+                frames.insert(distance, frame);
+            }
+        }
+        Ok(frames)
+    }
+}
+
+/// Frames of a scene with the rows that are still to run on them: the study's own frames first, then each row's own.
+pub(super) fn frames<'a>(
+    study: &Study,
+    plan: &Plan,
+    scene: &'a Scene,
+    kept: &BTreeSet<Key>,
+) -> Vec<(FrameSpec, Vec<(&'a Row, Key)>)> {
+    let mut out: Vec<(FrameSpec, Vec<(&Row, Key)>)> = Vec::new();
+    for frame in &scene.frames {
+        let first = out.len();
+        for row in &scene.rows {
+            let own = scene.frame_of(frame, row);
+            let key = plan.cell_key(study, scene, &own, row);
+            if kept.contains(&key) {
+                continue;
+            }
+            match out[first..].iter_mut().find(|(spec, _)| spec.key == own.key) {
+                Some((_, rows)) => rows.push((row, key)),
+                None => out.push((own, vec![(row, key)])),
+            }
+        }
+    }
+    out
 }
 
 /// One frame against its truth.
@@ -99,6 +131,8 @@ struct Cell<'a> {
     reference: &'a Reference,
     spec: &'a FrameSpec,
     frame: &'a Frame,
+    /// Neighbouring frames of its sequence, by their distance.
+    beside: BTreeMap<i64, Frame>,
 }
 
 impl Cell<'_> {
@@ -119,6 +153,8 @@ impl Cell<'_> {
             photon_maps: crate::measure::photon_maps(self.frame),
             spp: spec.spp,
             replicate: spec.replicate,
+            frame_spp: (spec.samples() != spec.spp).then_some(spec.samples()),
+            adaptive: adaptive(self.frame),
             method: row.method.id.clone(),
             label: row.label.clone(),
             params: row.method.params.clone(),
@@ -145,7 +181,12 @@ impl Cell<'_> {
         };
         machine::reset_peak_memory();
         let diagnostics = wants_diagnostics(study, spec).then_some(study.probe);
-        match denoise(row, self.frame, study.timing, diagnostics) {
+        let reach = row.card.neighbors as i64;
+        let side =
+            |distances: std::ops::Range<i64>| self.beside.range(distances).map(|(_, f)| f.clone()).collect();
+        let (before, after): (Vec<Frame>, Vec<Frame>) = (side(-reach..0), side(1..reach + 1));
+        let input = Input::new(self.frame).with_neighbors(&before, &after);
+        match denoise(row, input, study.timing, diagnostics) {
             Ok(done) => self.measure(row, done, &mut record)?,
             Err(outcome) => record.outcome = outcome,
         }
@@ -170,7 +211,8 @@ impl Cell<'_> {
                 block_bootstrap(self.measurer, &image, BOOTSTRAP_IMAGES, bootstrap_seed(record))
                     .map_err(metric)?;
         }
-        if scene.single() && row.method.id != crate::BASELINE {
+        // Of the same noisy input only: the ratio is to that.
+        if scene.single() && row.method.id != crate::BASELINE && spec.kind == FrameKind::Uniform {
             record.ratio_within_se =
                 ratio_within_se(&image, &self.frame.color.mean, self.reference).map_err(metric)?;
         }
@@ -191,7 +233,11 @@ impl Cell<'_> {
         let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);
         self.write(&relative, &image)?;
         record.image = Some(relative);
-        for (name, diagnostic) in &done.diagnostics {
+        let mut diagnostics = done.diagnostics;
+        if matches!(spec.kind, FrameKind::Adaptive(_)) && wants_diagnostics(self.runner.request.study, spec) {
+            diagnostics.push(("samples per pixel".into(), sample_counts(self.frame)));
+        }
+        for (name, diagnostic) in &diagnostics {
             let name_of_file: String =
                 name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
             let path = Layout::diagnostic(&scene.id, &row.slug, spec.spp, spec.replicate, &name_of_file);
@@ -201,8 +247,26 @@ impl Cell<'_> {
         Ok(())
     }
 
-    fn write(&self, relative: &str, image: &noisefloor_frame::Image) -> Result<(), HarnessError> {
+    fn write(&self, relative: &str, image: &Image) -> Result<(), HarnessError> {
         let path = self.runner.layout.ready(relative)?;
         Ok(noisefloor_io::write_image(AsRef::<Path>::as_ref(&path), image, &BTreeMap::new())?)
     }
+}
+
+/// How an adaptive frame was rendered.
+fn adaptive(frame: &Frame) -> Option<AdaptiveRecord> {
+    let extra = &frame.provenance.extra;
+    let rounds = extra.get(crate::measure::ADAPTIVE)?.parse().ok()?;
+    let counts = frame.samples.total();
+    let most = match counts {
+        Counts::Uniform(n) => *n,
+        Counts::PerPixel(counts) => counts.iter().copied().max().unwrap_or(0),
+    };
+    let density_seconds = extra.get(crate::measure::DENSITY_SECONDS).and_then(|s| s.parse().ok());
+    Some(AdaptiveRecord { rounds, mean_spp: counts.mean(), least: counts.least(), most, density_seconds })
+}
+
+/// Samples of every pixel, grey.
+fn sample_counts(frame: &Frame) -> Image {
+    Image::from_fn(frame.width(), frame.height(), 3, |_, x, y| frame.samples.at(y * frame.width() + x) as f32)
 }

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use noisefloor_denoiser::{DenoiseError, Diagnostics, Input, Output, StageSeconds};
-use noisefloor_frame::{Frame, Image};
+use noisefloor_frame::Image;
 
 use crate::plan::Row;
 use crate::record::Outcome;
@@ -24,20 +24,20 @@ pub(super) struct Denoised {
     pub(super) diagnostics: Vec<(String, Image)>,
 }
 
-/// Runs a row on a sanitised frame. `diagnostics` asks for diagnostic images that probe this pixel, given in fractions of
+/// Runs a row on a sanitised frame and its neighbours. `diagnostics` asks for diagnostic images that probe this pixel, given in fractions of
 /// the image (`Some(None)`: where the method likes).
 pub(super) fn denoise(
     row: &Row,
-    frame: &Frame,
+    input: Input<'_>,
     timing: Timing,
     diagnostics: Option<Option<[f64; 2]>>,
 ) -> Result<Denoised, Outcome> {
+    let frame = input.target;
     let missing = row.card.missing(frame);
     if !missing.is_empty() {
         let error = DenoiseError::MissingInputs { method: row.method.id.clone(), missing };
         return Err(Outcome::Skipped { reason: error.to_string() });
     }
-    let input = Input::new(frame);
     let mut first = None;
     for _ in 0..timing.warmup {
         first = Some(once(row, &input)?);

@@ -10,7 +10,7 @@ use serde_json::json;
 use crate::cache::{Key, key_of};
 use crate::error::HarnessError;
 use crate::observer::Observer;
-use crate::source::{FrameSpec, Scene, Source};
+use crate::source::{FrameKind, FrameSpec, Scene, Source};
 use crate::study::SceneSpec;
 
 /// The files of an imported scene.
@@ -38,6 +38,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
     for frame in folder.frames.iter().filter(|frame| wanted(frame.spp)) {
         let replicate = frame.replicate as u32;
         frames.push(FrameSpec {
+            kind: FrameKind::Uniform,
             spp: frame.spp,
             replicate,
             seed: frame.info.provenance.seed.unwrap_or(0),
@@ -76,6 +77,9 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         reference_key: file_key(&folder.reference, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
         reference_sampling: info.sampling.name().to_owned(),
+        rows: Vec::new(),
+        equal_time_spp: None,
+        beside: BTreeMap::new(),
         source: Source::Imported(Imported { files, reference: folder.reference.clone(), options }),
     })
 }

@@ -1,5 +1,7 @@
 //! Scenes that are rendered here.
 
+mod adaptive;
+
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -16,8 +18,9 @@ use serde_json::{Value, json};
 use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
 use crate::error::HarnessError;
 use crate::observer::{Observer, Stage};
-use crate::source::{FrameSpec, PixelClasses, Scene, Source, frame_specs};
-use crate::study::{Maps, ReferenceSpec, SceneSource, SceneSpec, Shot, Study};
+use crate::plan::Row;
+use crate::source::{FrameKind, FrameSpec, PixelClasses, Scene, Source, frame_seed, frame_specs};
+use crate::study::{AdaptiveFrames, Maps, ReferenceSpec, SceneSource, SceneSpec, Shot, Study};
 
 /// A scene with everything that all its frames have in common.
 pub(super) struct Rendered {
@@ -37,6 +40,11 @@ pub(super) struct Rendered {
     map_seed: u64,
     /// Those maps, made when they are first needed.
     shared: OnceLock<PhotonMaps>,
+    /// Everything that a sample's value depends on.
+    look: Value,
+    /// What tells the scene at this moment from others.
+    identity: Value,
+    study_seed: u64,
 }
 
 /// Names of the settings that say how light is carried and how photon maps are used.
@@ -130,12 +138,8 @@ pub(super) fn open(
     // Path traced unless the frames share their maps with it: then it is the same with and without maps.
     let shared = shot.integrator == Integrator::PhotonMapping && shot.maps == Maps::Fixed;
     let clean = look(reference.sampling, &BTreeMap::new(), shared)?;
-    let frames = frame_specs(study, spec, &identity, |spp, seed| {
-        key_of(&json!({
-            "look": noisy, "spp": spp, "seed": seed,
-            "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
-        }))
-    });
+    let frames =
+        frame_specs(study, spec, &identity, |spp, seed| key_of(&frame_identity(&noisy, &record, spp, seed)));
     let per_part = reference.spp / reference.parts; // parts ≥ 8 by the study's checks
     let parts: Vec<(Key, u64)> = (0..reference.parts)
         .map(|part| {
@@ -195,6 +199,9 @@ pub(super) fn open(
         reference_key: key_of(&parts.iter().map(|(key, _)| key).collect::<Vec<_>>()),
         reference_spp: u64::from(reference.spp),
         reference_sampling: reference.sampling.name().to_owned(),
+        rows: Vec::new(),
+        equal_time_spp: spec.equal_time_spp,
+        beside: BTreeMap::new(),
         source: Source::Rendered(Box::new(Rendered {
             prepared,
             width,
@@ -209,7 +216,18 @@ pub(super) fn open(
             shot,
             map_seed,
             shared: OnceLock::new(),
+            look: noisy,
+            identity,
+            study_seed: study.seed,
         })),
+    })
+}
+
+/// Everything that determines a frame.
+fn frame_identity(look: &Value, record: &BTreeMap<Quantity, Keep>, spp: u32, seed: u64) -> Value {
+    json!({
+        "look": look, "spp": spp, "seed": seed,
+        "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
     })
 }
 
@@ -265,15 +283,39 @@ impl Rendered {
         self.parts.iter().filter(|(key, _)| !cache.has(key)).map(|_| per_part).sum()
     }
 
+    /// The frame of the same replicate with another number of samples in every pixel: that of a study which has it as a level.
+    pub(super) fn with_samples(&self, frame: &FrameSpec, spp: u32) -> FrameSpec {
+        let seed = frame_seed(self.study_seed, &self.identity, spp, frame.replicate);
+        let key = key_of(&frame_identity(&self.look, &self.record, spp, seed));
+        FrameSpec { seed, key, kind: FrameKind::Samples(spp), ..frame.clone() }
+    }
+
+    /// The frame of the same replicate with as many samples placed where `row` asks for them.
+    pub(super) fn in_rounds(&self, frame: &FrameSpec, adaptive: AdaptiveFrames, row: &Row) -> FrameSpec {
+        let mut all = frame_identity(&self.look, &self.record, frame.spp, frame.seed);
+        all["adaptive"] = json!(adaptive);
+        all["method"] = json!([row.method.id, row.method.params, crate::machine::build_id()]);
+        FrameSpec { key: key_of(&all), kind: FrameKind::Adaptive(adaptive), ..frame.clone() }
+    }
+
     pub(super) fn frame(
         &self,
         spec: &FrameSpec,
+        row: Option<&Row>,
         cache: &Cache,
         observer: &dyn Observer,
     ) -> Result<Frame, HarnessError> {
-        let request = self.request(spec.spp, spec.seed, self.sampling, Record::Exactly(self.record.clone()));
+        let record = Record::Exactly(self.record.clone());
+        let request = self.request(spec.samples(), spec.seed, self.sampling, record);
+        let make = |request: &RenderRequest<'_>| match (spec.kind, row) {
+            (FrameKind::Adaptive(adaptive), Some(row)) => {
+                let label = (spec.spp, row.label.as_str());
+                adaptive::render(request, adaptive, label, row.method.denoiser.adaptive(), observer)
+            }
+            _ => rendered(request, observer),
+        };
         cached(cache, &spec.key, observer, || {
-            let Some(settings) = self.shot.photons() else { return rendered(&request, observer) };
+            let Some(settings) = self.shot.photons() else { return make(&request) };
             let fresh;
             let maps = match self.shot.maps {
                 Maps::Fixed => self.shared_maps()?,
@@ -285,7 +327,7 @@ impl Rendered {
             };
             let request =
                 RenderRequest { photons: Some(maps), integrator: self.shot.integrator, ..request.clone() };
-            let mut frame = rendered(&request, observer)?;
+            let mut frame = make(&request)?;
             // What this frame would have cost alone.
             frame.provenance.render_seconds = frame.provenance.render_seconds.map(|s| s + maps.seconds());
             if self.shot.integrator == Integrator::PhotonMapping {
@@ -366,21 +408,26 @@ fn cached(
 
 fn rendered(request: &RenderRequest<'_>, observer: &dyn Observer) -> Result<Frame, HarnessError> {
     let spp = u64::from(request.spp);
-    let progress = |pixels: usize| {
-        observer.rendered(pixels as u64 * spp);
-        if observer.cancelled() {
-            return ControlFlow::Break(());
-        }
-        ControlFlow::Continue(())
-    };
+    let progress = |pixels: usize| advance(observer, pixels as u64 * spp);
     let start = Instant::now();
     let frame = render(request, &progress);
     let seconds = start.elapsed().as_secs_f64();
-    let mut frame = frame.map_err(|error| match error {
-        RenderError::Cancelled => HarnessError::Cancelled,
-        other => other.into(),
-    })?;
+    let mut frame = frame.map_err(stopped)?;
     frame.provenance.render_seconds.get_or_insert(seconds);
     frame.provenance.render_threads.get_or_insert(rayon::current_num_threads() as u32);
     Ok(frame)
+}
+
+/// Tells of samples that are done; whether to go on.
+fn advance(observer: &dyn Observer, samples: u64) -> ControlFlow<()> {
+    observer.rendered(samples);
+    if observer.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+}
+
+/// A render error as the harness tells it.
+fn stopped(error: RenderError) -> HarnessError {
+    match error {
+        RenderError::Cancelled => HarnessError::Cancelled,
+        other => other.into(),
+    }
 }

@@ -6,6 +6,7 @@ use noisefloor_frame::{Reference, Sampling};
 
 use crate::error::{HarnessError, Place};
 use crate::study::compare::check_comparisons;
+use crate::study::frames::check_frames;
 use crate::study::sequence::check_sequences;
 use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
 
@@ -104,6 +105,7 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
     check_scenes(study, lines)?;
     check_sequences(study, lines)?;
     check_rows(study, lines)?;
+    check_frames(study, lines)?;
     check_comparisons(study, lines)
 }
 

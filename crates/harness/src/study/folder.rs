@@ -41,6 +41,8 @@ impl Study {
                 replicates: None,
                 shot: Shot::default(),
                 sequence: None,
+                set: serde_json::Map::new(),
+                equal_time_spp: None,
             });
         }
         let study = Self {

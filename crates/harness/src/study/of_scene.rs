@@ -25,8 +25,16 @@ impl Study {
             })?;
             (entry.id.to_owned(), SceneSource::Builtin(entry.id.into()), entry.about.to_owned())
         };
-        let scenes =
-            vec![SceneSpec { id: id.clone(), source, spp: None, replicates: None, shot, sequence: None }];
+        let scenes = vec![SceneSpec {
+            id: id.clone(),
+            source,
+            spp: None,
+            replicates: None,
+            shot,
+            sequence: None,
+            set: serde_json::Map::new(),
+            equal_time_spp: None,
+        }];
         let study = Self {
             title: format!("Scene {id}"),
             question: format!(

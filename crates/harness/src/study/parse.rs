@@ -12,7 +12,8 @@ use crate::error::{HarnessError, Place};
 use crate::study::check::{Lines, check};
 use crate::study::compare::RawCompare;
 use crate::study::{
-    Family, Maps, MethodRow, ReferenceSpec, Replicates, SceneSource, SceneSpec, Shot, Study, Timing,
+    AdaptiveFrames, Family, Maps, MethodRow, ReferenceSpec, Replicates, RowFrames, SceneSource, SceneSpec,
+    Shot, Study, Timing,
 };
 
 #[derive(Deserialize)]
@@ -133,6 +134,9 @@ struct RawScene {
     photons: Option<PhotonSettings>,
     maps: Option<Maps>,
     sequence: Option<String>,
+    #[serde(default)]
+    set: Map<String, Value>,
+    equal_time_spp: Option<u32>,
 }
 
 #[derive(Deserialize)]
@@ -142,6 +146,8 @@ struct RawMethod {
     label: Option<String>,
     #[serde(default)]
     set: Map<String, Value>,
+    adaptive: Option<AdaptiveFrames>,
+    equal_time: Option<String>,
 }
 
 impl Study {
@@ -166,11 +172,11 @@ impl Study {
             lines.scenes.push(line);
             scenes.push(scene.into_inner().resolve(index, line, base, &lines)?);
         }
-        let methods = raw.methods.into_iter().map(|row| {
+        let mut methods = Vec::new();
+        for (index, row) in raw.methods.into_iter().enumerate() {
             let line = line_at(row.span().start);
-            let RawMethod { id, label, set } = row.into_inner();
-            MethodRow { label: label.unwrap_or_else(|| id.clone()), id, set, line: Some(line) }
-        });
+            methods.push(row.into_inner().resolve(index, line, &lines)?);
+        }
         let top = raw.spp.iter().copied().max().unwrap_or(1);
         let reference = ReferenceSpec {
             // 16 times the largest level is what the coverage correction assumes.
@@ -199,7 +205,7 @@ impl Study {
             sampling: raw.sampling,
             reference,
             scenes,
-            methods: methods.collect(),
+            methods,
             compare: compare.collect(),
             primary_metric,
             metrics,
@@ -221,6 +227,26 @@ impl Study {
     pub fn from_file(path: &Path) -> Result<Self, HarnessError> {
         let text = std::fs::read_to_string(path).map_err(HarnessError::io("read", path))?;
         Self::from_toml(&text, path)
+    }
+}
+
+impl RawMethod {
+    fn resolve(self, index: usize, line: usize, lines: &Lines<'_>) -> Result<MethodRow, HarnessError> {
+        let frames = match (self.adaptive, self.equal_time) {
+            (None, None) => RowFrames::Uniform,
+            (Some(adaptive), None) => RowFrames::Adaptive(adaptive),
+            (None, Some(with)) => RowFrames::EqualTime { with },
+            (Some(_), Some(_)) => {
+                return Err(HarnessError::Field {
+                    place: lines.place(Some(line)),
+                    field: format!("method[{index}]"),
+                    value: "`adaptive` and `equal_time`".into(),
+                    allowed: "one of them".into(),
+                });
+            }
+        };
+        let label = self.label.unwrap_or_else(|| self.id.clone());
+        Ok(MethodRow { label, id: self.id, set: self.set, frames, line: Some(line) })
     }
 }
 
@@ -271,6 +297,15 @@ impl RawScene {
             return Err(wrong("`maps` without photon maps", allowed));
         }
         let replicates = self.replicates.map(Into::into);
-        Ok(SceneSpec { id: self.id, source, spp: self.spp, replicates, shot, sequence: self.sequence })
+        Ok(SceneSpec {
+            id: self.id,
+            source,
+            spp: self.spp,
+            replicates,
+            shot,
+            set: self.set,
+            equal_time_spp: self.equal_time_spp,
+            sequence: self.sequence,
+        })
     }
 }

@@ -1,6 +1,7 @@
 //! The page's contents as plain texts, in the order of the template.
 
 mod claims;
+mod equal_time;
 mod estimates;
 mod flicker;
 mod headline;
@@ -15,6 +16,7 @@ use serde::Serialize;
 use crate::format;
 use crate::index::Index;
 pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
+pub(crate) use equal_time::EqualTimeRow;
 pub(crate) use estimates::EstimatesView;
 pub(crate) use flicker::FlickerView;
 pub(crate) use headline::{Answer, Board, SceneCard};
@@ -48,6 +50,7 @@ pub(crate) struct Page {
     pub bounds: Vec<BoundsView>,
     pub enclosures: Option<EnclosureView>,
     pub estimates: Vec<EstimatesView>,
+    pub equal_time: Vec<EqualTimeRow>,
     pub flicker: Vec<FlickerView>,
     pub slopes: Vec<SlopeTable>,
     pub methods: Vec<MethodView>,
@@ -124,6 +127,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         bounds: summary.scenes.iter().filter_map(|s| claims::bounds(index, s)).collect(),
         enclosures: claims::enclosures(index),
         estimates: summary.scenes.iter().filter_map(|s| estimates::estimates(index, s)).collect(),
+        equal_time: equal_time::equal_time(index.summary),
         flicker: flicker::flicker(index),
         slopes: slopes::tables(index),
         methods: methods(index),
