@@ -2,6 +2,7 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
+use noisefloor_kernels::nlm::MAX_VARIANCE;
 
 use crate::first_pass::filter_errors;
 use crate::prepare::Prepared;
@@ -25,24 +26,25 @@ pub(crate) struct Outcome<'a> {
 }
 
 /// Relative error estimate times W(p): how much a further sample of p does for the filtered image. With W = Σ w/(1 + Σ w·n) as
-/// in the text, or `plain` Σ w/Σ w·n.
+/// in the text, or `plain` Σ w/Σ w·n. The product is filtered, because it is as noisy as the estimate is.
 pub(crate) fn density(
     method: &str,
     target: &Prepared<'_>,
     outcome: &Outcome<'_>,
     plain: bool,
 ) -> Result<Image, DenoiseError> {
-    let errors = filter_errors(method, target, &sum_of_channels(outcome.sure), PATCH, RADIUS)?;
+    let mut weighted = sum_of_channels(outcome.sure);
     let mean = mean_of_channels(outcome.mean);
-    let mut out = errors.clone();
-    for (p, value) in out.data_mut().iter_mut().enumerate() {
+    for (p, value) in weighted.data_mut().iter_mut().enumerate() {
         let mean = f64::from(mean.data()[p]);
         let (weight, samples) =
             (f64::from(outcome.weight_sum.data()[p]), f64::from(outcome.contributing.data()[p]));
-        // At least one sample contributes to a filtered value, or none at all.
+        // Positive even for a pixel without samples.
         let others = if plain { samples.max(f64::from(f32::MIN_POSITIVE)) } else { 1.0 + samples };
-        let wanted = f64::from(*value).max(0.0) / (mean * mean + DARK) * (weight / others);
-        *value = wanted.min(f64::from(f32::MAX)) as f32;
+        let relative = f64::from(*value) / (mean * mean + DARK);
+        *value =
+            (relative * (weight / others)).clamp(f64::from(-MAX_VARIANCE), f64::from(MAX_VARIANCE)) as f32;
     }
-    Ok(out)
+    // An estimate that is negative after all is no reason to take samples away.
+    Ok(filter_errors(method, target, &weighted, PATCH, RADIUS)?.map(|v| v.max(0.0)))
 }
