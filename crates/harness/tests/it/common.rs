@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use noisefloor_denoiser::{
-    Citation, Claim, DenoiseError, Denoiser, Entry, Input, MC_ENTRY, MethodCard, Need, Output, ParamDoc,
-    Registry, build_with,
+    Adaptive, Citation, Claim, DenoiseError, Denoiser, Entry, Input, MC_ENTRY, MethodCard, Need, Output,
+    ParamDoc, Registry, build_with,
 };
 use noisefloor_frame::Image;
 use noisefloor_harness::record::{Outcome, Record, Seconds};
@@ -121,6 +121,59 @@ impl Denoiser for Judge {
     }
 }
 
+/// The input, which wants samples on the left only, and looks at frames beside it.
+struct Seeker(SeekerParams);
+
+#[derive(Clone, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SeekerParams {
+    neighbors: usize,
+    lost: bool,
+}
+
+const SEEKER_PARAMS: &[ParamDoc] = &[
+    ParamDoc { name: "neighbors", range: "any number", about: "frames on each side" },
+    ParamDoc { name: "lost", range: "true or false", about: "fails to say where samples are needed" },
+];
+
+impl Denoiser for Seeker {
+    fn card(&self) -> MethodCard {
+        MethodCard { neighbors: self.0.neighbors, ..MethodCard::new("seeker", "Seeker", CITATION) }
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let mut output = Output::from_image(input.target.color.mean.clone());
+        output.figures.push(("before".into(), input.before.len() as f64));
+        output.figures.push(("after".into(), input.after.len() as f64));
+        // The frames in time order tell themselves by their first value.
+        for (k, frame) in input.before.iter().chain([input.target]).chain(input.after).enumerate() {
+            output.figures.push((format!("frame {k}"), f64::from(frame.color.mean.data()[0])));
+        }
+        Ok(output)
+    }
+
+    fn adaptive(&self) -> Option<&dyn Adaptive> {
+        Some(self)
+    }
+}
+
+impl Adaptive for Seeker {
+    fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
+        if self.0.lost {
+            return Err(DenoiseError::Undefined {
+                method: "seeker".into(),
+                what: "way",
+                pixels: 1,
+                x: 0,
+                y: 0,
+            });
+        }
+        let (width, height) = (input.target.width(), input.target.height());
+        Ok(Image::from_fn(width, height, 1, |_, x, _| f32::from(2 * x < width)))
+    }
+}
+
 /// Does what its id says.
 struct Trouble(&'static str);
 
@@ -187,9 +240,16 @@ pub fn registry() -> Registry {
         defaults: || serde_json::to_value(JudgeParams::default()).unwrap(),
         build: |set| build_with("judge", JUDGE_PARAMS, set, |p: JudgeParams| Ok(Judge(p))),
     };
+    let seeker = Entry {
+        id: "seeker",
+        summary: "seeks samples",
+        params: SEEKER_PARAMS,
+        defaults: || serde_json::to_value(SeekerParams::default()).unwrap(),
+        build: |set| build_with("seeker", SEEKER_PARAMS, set, |p: SeekerParams| Ok(Seeker(p))),
+    };
     let troubles =
         [trouble!("needy"), trouble!("fails"), trouble!("panics"), trouble!("shrinks"), trouble!("nan")];
-    Registry::new(&[MC_ENTRY, blur, judge], &troubles)
+    Registry::new(&[MC_ENTRY, blur, judge, seeker], &troubles)
 }
 
 /// Counts, and stops after a number of cells if asked.

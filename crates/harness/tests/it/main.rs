@@ -4,6 +4,7 @@ mod cache;
 mod common;
 mod estimates;
 mod flicker;
+mod frames;
 mod import;
 mod outcomes;
 mod paper;
