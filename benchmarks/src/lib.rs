@@ -1,5 +1,7 @@
 //! What the whole-workspace benchmarks share; see the files beside this package.
 
+mod method_frame;
 mod nlm_frame;
 
+pub use method_frame::method_frame;
 pub use nlm_frame::{NlmFrame, NlmVariant, nlm_variants};

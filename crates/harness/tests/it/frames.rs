@@ -48,7 +48,7 @@ fn adaptive_rows_get_all_their_samples_where_their_method_wants_them() {
     }
     assert!(of(&all, "mc").all(|record| record.adaptive.is_none() && !record.coverage.is_empty()));
     let path = of(&all, "rounds").next().unwrap().diagnostics["samples per pixel"].clone();
-    let counts = noisefloor_io::read_image(&place.out().join(path)).unwrap();
+    let counts = noisefloor_io::read_image(place.out().join(path)).unwrap();
     assert!((0..16).all(|x| counts.get(0, x, 5) == if x < 8 { 14.0 } else { 2.0 }));
     // Half the picture has more samples than the plain frame.
     assert_eq!(summary.cells.len(), 2);
