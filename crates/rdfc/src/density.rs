@@ -6,6 +6,7 @@ use noisefloor_kernels::nlm::MAX_VARIANCE;
 
 use crate::first_pass::filter_errors;
 use crate::prepare::Prepared;
+use crate::settings::Settings;
 use crate::sure::{mean_of_channels, sum_of_channels};
 
 /// Keeps dark pixels from taking all samples.
@@ -26,12 +27,12 @@ pub(crate) struct Outcome<'a> {
 }
 
 /// Relative error estimate times W(p): how much a further sample of p does for the filtered image. With W = Σ w/(1 + Σ w·n) as
-/// in the text, or `plain` Σ w/Σ w·n. The product is filtered, because it is as noisy as the estimate is.
+/// in the text, or as programmed Σ w/Σ w·n. The product is filtered, because it is as noisy as the estimate is.
 pub(crate) fn density(
     method: &str,
     target: &Prepared<'_>,
     outcome: &Outcome<'_>,
-    plain: bool,
+    settings: &Settings,
 ) -> Result<Image, DenoiseError> {
     let mut weighted = sum_of_channels(outcome.sure);
     let mean = mean_of_channels(outcome.mean);
@@ -40,11 +41,12 @@ pub(crate) fn density(
         let (weight, samples) =
             (f64::from(outcome.weight_sum.data()[p]), f64::from(outcome.contributing.data()[p]));
         // Positive even for a pixel without samples.
-        let others = if plain { samples.max(f64::from(f32::MIN_POSITIVE)) } else { 1.0 + samples };
+        let others =
+            if settings.plain_density { samples.max(f64::from(f32::MIN_POSITIVE)) } else { 1.0 + samples };
         let relative = f64::from(*value) / (mean * mean + DARK);
         *value =
             (relative * (weight / others)).clamp(f64::from(-MAX_VARIANCE), f64::from(MAX_VARIANCE)) as f32;
     }
     // An estimate that is negative after all is no reason to take samples away.
-    Ok(filter_errors(method, target, &weighted, PATCH, RADIUS)?.map(|v| v.max(0.0)))
+    Ok(filter_errors(method, target, &weighted, (PATCH, RADIUS), settings.center)?.map(|v| v.max(0.0)))
 }

@@ -2,7 +2,7 @@
 
 use noisefloor_denoiser::{DenoiseError, StageTimer};
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::NlmParams;
+use noisefloor_kernels::nlm::{Center, NlmParams};
 
 use crate::candidates::Candidate;
 use crate::kernel;
@@ -44,11 +44,16 @@ pub(crate) fn first_pass(
 ) -> Result<FirstPass, DenoiseError> {
     let (width, height) = (target.frame.width(), target.frame.height());
     let raw: Vec<Vec<f32>> = candidates.iter().map(|c| sum_of_channels(&c.sure).data().to_vec()).collect();
-    let errors =
-        filter_errors(method, target, &kernel::image(&raw, width, height), settings.map_patch, ERROR_RADIUS)?;
+    let errors = filter_errors(
+        method,
+        target,
+        &kernel::image(&raw, width, height),
+        (settings.map_patch, ERROR_RADIUS),
+        settings.center,
+    )?;
     timer.finish("errors");
     let binary = binary_maps(candidates, &errors, settings);
-    let maps = by_color(method, target, &binary, settings.map_patch, MAP_RADIUS)?;
+    let maps = by_color(method, target, &binary, (settings.map_patch, MAP_RADIUS), settings.center)?;
     let weights = normalized(&maps);
     let halves = [0, 1].map(|h| combined(candidates, &weights, |c| &c.halves[h]));
     let mean = mean_of_halves(&halves, &target.frame.samples);
@@ -57,17 +62,17 @@ pub(crate) fn first_pass(
     Ok(FirstPass { halves, mean, errors, binary, weights, sure })
 }
 
-/// Filters maps with weights from the colour.
+/// Filters maps with weights from the colour, with this patch and window radius.
 fn by_color(
     method: &str,
     target: &Prepared<'_>,
     maps: &Image,
-    patch: usize,
-    radius: usize,
+    (patch, radius): (usize, usize),
+    center: Center,
 ) -> Result<Image, DenoiseError> {
     let (width, height) = (maps.width(), maps.height());
     let guide = kernel::channels(&target.frame.color.mean, &target.variance);
-    let params = NlmParams::new(width, height, radius, MAP_K);
+    let params = NlmParams { center, ..NlmParams::new(width, height, radius, MAP_K) };
     let filtered = kernel::filter_guided(method, &params, patch, guide, maps.planes().collect())?;
     Ok(kernel::image(&filtered.planes, width, height))
 }
@@ -78,12 +83,12 @@ pub(crate) fn filter_errors(
     method: &str,
     target: &Prepared<'_>,
     errors: &Image,
-    patch: usize,
-    radius: usize,
+    sizes: (usize, usize),
+    center: Center,
 ) -> Result<Image, DenoiseError> {
     let largest = errors.data().iter().fold(0.0f32, |most, v| most.max(v.abs()));
     let scale = if largest > 1.0 { (-largest.log2().ceil()).exp2() } else { 1.0 };
-    let filtered = by_color(method, target, &errors.map(|v| v * scale), patch, radius)?;
+    let filtered = by_color(method, target, &errors.map(|v| v * scale), sizes, center)?;
     // At least 2⁻¹⁰⁴, as magnitudes are at most 3·10³⁰.
     Ok(filtered.map(|v| v / scale))
 }

@@ -188,7 +188,6 @@ impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
         let mut timer = StageTimer::start();
         let (target, candidates) = self.start(input, &mut timer)?;
-        let plain = self.settings.plain_density;
         if self.only.is_some() {
             let only = &candidates[0]; // asked for one
             let outcome = Outcome {
@@ -197,7 +196,7 @@ impl Adaptive for Rdfc {
                 weight_sum: &only.weight_sum,
                 contributing: &only.contributing,
             };
-            return density(self.id, &target, &outcome, plain);
+            return density(self.id, &target, &outcome, &self.settings);
         }
         let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
         let outcome = Outcome {
@@ -206,7 +205,7 @@ impl Adaptive for Rdfc {
             weight_sum: &combined(&candidates, &first.weights, |c| &c.weight_sum),
             contributing: &combined(&candidates, &first.weights, |c| &c.contributing),
         };
-        density(self.id, &target, &outcome, plain)
+        density(self.id, &target, &outcome, &self.settings)
     }
 }
 
