@@ -6,7 +6,6 @@ use noisefloor_frame::Sampling;
 use serde::{Deserialize, Serialize};
 
 use crate::cache::Key;
-use crate::study::RowFrames;
 use crate::summary::{Environment, MethodSummary};
 
 /// The run that made the records.
@@ -26,9 +25,6 @@ pub(crate) struct Row {
     pub(crate) summary: MethodSummary,
     /// Whether its card claims that it converges.
     pub(crate) consistent: bool,
-    /// Which frames it got.
-    #[serde(default)]
-    pub(crate) frames: RowFrames,
 }
 
 /// A scene as it was run.

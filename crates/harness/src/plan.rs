@@ -9,7 +9,7 @@ use serde_json::{Map, Value, json};
 use crate::cache::{Key, key_of};
 use crate::error::{HarnessError, Place};
 use crate::record::RECORD_SCHEMA;
-use crate::source::{FrameSpec, Scene};
+use crate::source::{FrameKind, FrameSpec, Scene};
 use crate::study::{RowFrames, SceneSpec, Study};
 
 /// A row ready to run.
@@ -67,6 +67,10 @@ impl Plan {
         // Cells without neighbouring frames keep the keys that they had when there were none.
         if !beside.is_empty() {
             all["beside"] = json!(beside);
+        }
+        // One frame may stand beside several levels.
+        if let FrameKind::Samples(_) = frame.kind {
+            all["level"] = json!(frame.spp);
         }
         key_of(&all)
     }

@@ -233,9 +233,9 @@ fn describe(row: &Row) -> RowContext {
             reference: card.citation.text.into(),
             params: row.method.params.clone(),
             notes: card.notes.clone(),
+            frames: row.frames.clone(),
             estimates_error: card.claims.estimates_error,
         },
         consistent: card.claims.consistent,
-        frames: row.frames.clone(),
     }
 }

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::study::RowFrames;
+
 /// Version of the summary format.
 pub const SUMMARY_SCHEMA: u32 = 1;
 
@@ -219,6 +221,9 @@ pub struct MethodSummary {
     pub params: Value,
     /// Notes of the card.
     pub notes: Vec<String>,
+    /// Which frames it got.
+    #[serde(default)]
+    pub frames: RowFrames,
     /// Whether its card claims an estimate of its own error.
     #[serde(default)]
     pub estimates_error: bool,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use noisefloor_harness::RowFrames;
 use noisefloor_harness::summary::{CellSummary, Comparison, MetricInfo, SceneSummary, Summary};
 
 use crate::plot::style::Looks;
@@ -56,7 +57,11 @@ impl<'a> Index<'a> {
 
     /// Label of the row that is the unfiltered input.
     pub(crate) fn baseline(&self) -> Option<&'a str> {
-        self.summary.methods.iter().find(|m| m.method == "mc").map(|m| m.label.as_str())
+        self.summary
+            .methods
+            .iter()
+            .find(|m| m.method == "mc" && m.frames == RowFrames::Uniform)
+            .map(|m| m.label.as_str())
     }
 
     /// The level that a reader sees first: the middle one, the upper of two.

@@ -3,13 +3,17 @@ use noisefloor_stats::convergence;
 use crate::analysis::index::Index;
 use crate::analysis::number::{LEVEL, told};
 use crate::analysis::series::series;
+use crate::study::RowFrames;
 use crate::summary::{SlopeSummary, Source};
 
 /// Slope and verdict per scene, row and metric that has a rate; none where fewer than two levels have a positive error.
 pub(super) fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
     let mut out = Vec::new();
     for scene in index.scenes() {
-        for row in index.rows() {
+        // Rows of equal time have the same samples at every level.
+        for row in
+            index.rows().iter().filter(|row| !matches!(row.summary.frames, RowFrames::EqualTime { .. }))
+        {
             for metric in &index.study.metrics {
                 let Some(order) = crate::metric::order(metric) else { continue };
                 let label = &row.summary.label;

@@ -11,7 +11,7 @@ pub(super) fn equal_time(index: &Index<'_>) -> Vec<EqualTime> {
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
             for row in index.rows() {
-                let RowFrames::EqualTime { with } = &row.frames else { continue };
+                let RowFrames::EqualTime { with } = &row.summary.frames else { continue };
                 let (own, other) =
                     (index.records(scene, spp, &row.summary.label), index.records(scene, spp, with));
                 let (Some(first), Some(denoise)) =

@@ -42,7 +42,8 @@ impl<'a> Index<'a> {
 
     /// The row that stands for plain Monte Carlo, if the study has one.
     pub(super) fn baseline(&self) -> Option<&'a Row> {
-        let plain = |row: &&Row| row.summary.method == crate::BASELINE && row.frames == RowFrames::Uniform;
+        let plain =
+            |row: &&Row| row.summary.method == crate::BASELINE && row.summary.frames == RowFrames::Uniform;
         self.rows().iter().find(plain)
     }
 

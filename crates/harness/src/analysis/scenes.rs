@@ -45,9 +45,10 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
     }
     let mut render_seconds = BTreeMap::new();
     for &spp in scene.replicates.keys() {
-        // All rows of a frame carry the same time; one per replicate is enough.
+        // All rows of the study's own frames carry the same time; one per replicate is enough.
         let mut of_frame = BTreeMap::new();
-        for record in mine().filter(|record| record.spp == spp) {
+        let plain = |record: &&Record| record.frame_spp.is_none() && record.adaptive.is_none();
+        for record in mine().filter(plain).filter(|record| record.spp == spp) {
             if let Some(seconds) = record.seconds.render {
                 of_frame.insert(record.replicate, seconds);
             }

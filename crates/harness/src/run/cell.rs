@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_denoiser::{Input, Output};
-use noisefloor_frame::{Counts, Frame, Image, Reference};
+use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling};
 use noisefloor_metrics::{Measurer, block_bootstrap};
 
 use crate::cache::{Cache, Key};
@@ -54,7 +54,19 @@ impl Runner<'_> {
                 replicate: spec.replicate,
             });
             let steering = rows.first().map(|(row, _)| *row);
-            let mut frame = scene.frame(&spec, steering, self.cache, self.request.observer)?;
+            let mut frame = match scene.frame(&spec, steering, self.cache, self.request.observer) {
+                // A method that does not know where it needs samples ends its own cells, not the study.
+                Err(error @ HarnessError::Density { .. }) => {
+                    for (row, key) in rows {
+                        let mut record = self.blank(row, key, &spec, scene.sampling);
+                        record.outcome = Outcome::Failed { reason: error.to_string() };
+                        records.append(record.clone())?;
+                        self.request.observer.cell(&record, &record.outcome);
+                    }
+                    continue;
+                }
+                frame => frame?,
+            };
             let hygiene = frame.sanitize();
             let non_finite = NonFinite {
                 input_pixels: hygiene.invalid_pixels,
@@ -82,6 +94,41 @@ impl Runner<'_> {
             }
         }
         Ok(context)
+    }
+
+    /// The record of a cell before it has run.
+    fn blank(&self, row: &Row, key: Key, spec: &FrameSpec, sampling: Sampling) -> Record {
+        Record {
+            schema: RECORD_SCHEMA,
+            cell: key,
+            study: self.request.study.name.clone(),
+            scene: self.scene.id.clone(),
+            sampling: sampling,
+            photon_maps: None,
+            spp: spec.spp,
+            replicate: spec.replicate,
+            frame_spp: (spec.samples() != spec.spp).then_some(spec.samples()),
+            adaptive: None,
+            method: row.method.id.clone(),
+            label: row.label.clone(),
+            params: row.method.params.clone(),
+            outcome: Outcome::Done,
+            metrics: BTreeMap::new(),
+            metrics_reference_se: BTreeMap::new(),
+            metrics_within_se: BTreeMap::new(),
+            ratio_within_se: BTreeMap::new(),
+            classes: BTreeMap::new(),
+            coverage: Vec::new(),
+            bounds: Vec::new(),
+            enclosures: Vec::new(),
+            error_estimate: None,
+            non_finite: NonFinite::default(),
+            figures: BTreeMap::new(),
+            seconds: Seconds { threads: rayon::current_num_threads() as u32, ..Seconds::default() },
+            peak_memory_bytes: None,
+            image: None,
+            diagnostics: BTreeMap::new(),
+        }
     }
 
     /// The neighbouring frames that some of the rows look at, by their distance.
@@ -144,41 +191,11 @@ impl Cell<'_> {
             replicate: spec.replicate,
             label: row.label.clone(),
         });
-        let mut record = Record {
-            schema: RECORD_SCHEMA,
-            cell: key,
-            study: study.name.clone(),
-            scene: scene.id.clone(),
-            sampling: self.frame.sampling,
-            photon_maps: crate::measure::photon_maps(self.frame),
-            spp: spec.spp,
-            replicate: spec.replicate,
-            frame_spp: (spec.samples() != spec.spp).then_some(spec.samples()),
-            adaptive: adaptive(self.frame),
-            method: row.method.id.clone(),
-            label: row.label.clone(),
-            params: row.method.params.clone(),
-            outcome: Outcome::Done,
-            metrics: BTreeMap::new(),
-            metrics_reference_se: BTreeMap::new(),
-            metrics_within_se: BTreeMap::new(),
-            ratio_within_se: BTreeMap::new(),
-            classes: BTreeMap::new(),
-            coverage: Vec::new(),
-            bounds: Vec::new(),
-            enclosures: Vec::new(),
-            error_estimate: None,
-            non_finite,
-            figures: BTreeMap::new(),
-            seconds: Seconds {
-                render: self.frame.provenance.render_seconds,
-                threads: rayon::current_num_threads() as u32,
-                ..Seconds::default()
-            },
-            peak_memory_bytes: None,
-            image: None,
-            diagnostics: BTreeMap::new(),
-        };
+        let mut record = self.runner.blank(row, key, spec, self.frame.sampling);
+        record.photon_maps = crate::measure::photon_maps(self.frame);
+        record.adaptive = adaptive(self.frame);
+        record.non_finite = non_finite;
+        record.seconds.render = self.frame.provenance.render_seconds;
         machine::reset_peak_memory();
         let diagnostics = wants_diagnostics(study, spec).then_some(study.probe);
         let reach = row.card.neighbors as i64;
@@ -226,9 +243,12 @@ impl Cell<'_> {
         if row.method.id == crate::BASELINE {
             record.coverage = measure.coverage(&self.runner.request.study.coverage).map_err(shape)?;
         }
-        let claims = &row.card.claims;
-        record.bounds = measure.bounds(&image, &claims.error_bound).map_err(shape)?;
-        record.enclosures = measure.enclosures(&image, &claims.enclosure).map_err(shape)?;
+        // Nothing is claimed where samples were placed by what was seen.
+        if record.adaptive.is_none() {
+            let claims = &row.card.claims;
+            record.bounds = measure.bounds(&image, &claims.error_bound).map_err(shape)?;
+            record.enclosures = measure.enclosures(&image, &claims.enclosure).map_err(shape)?;
+        }
 
         let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);
         self.write(&relative, &image)?;

@@ -99,6 +99,13 @@ pub(super) fn check_frames(study: &Study, lines: &Lines<'_>) -> Result<(), Harne
                 let allowed = "scenes that are rendered: the row has frames of its own";
                 return wrong(row.line, of_row(own), format!("on scene `{}`", scene.id), allowed.into());
             }
+            if let RowFrames::Adaptive(AdaptiveFrames { first: Some(first), .. }) = row.frames
+                && let Some(low) = study.levels(scene).iter().find(|spp| **spp <= first)
+            {
+                let allowed =
+                    format!("less than the level {low} of scene `{}`, for there to be more rounds", scene.id);
+                return wrong(row.line, of_row("adaptive.first"), first.to_string(), allowed);
+            }
             if own == "equal_time" && scene.equal_time_spp.is_none() {
                 let field = format!("scene[{k}].equal_time_spp");
                 let allowed = format!("samples per pixel for the row `{}`", row.label);

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::common::{Place, Watch, records, study};
+use noisefloor_harness::Study;
 use noisefloor_harness::record::Record;
-use noisefloor_harness::{HarnessError, Study};
 
 const PIXELS: usize = 16 * 12;
 
@@ -64,16 +64,29 @@ fn adaptive_rows_are_refused_where_they_cannot_be() {
     let refused = place.run(&blur, &Watch::default()).unwrap_err().to_string();
     assert!(refused.contains("row `blur`: adaptive") && refused.contains("say where"), "{refused}");
     let row = |keys: &str| format!("[[method]]\nid = \"seeker\"\nadaptive = {{ {keys} }}\n");
-    for (keys, words) in [("rounds = 1", "2 to 64"), ("most = 1", "2 to 4096"), ("first = 1", "at least 2")] {
+    for (keys, words) in [
+        ("rounds = 1", "2 to 64"),
+        ("most = 1", "2 to 4096"),
+        ("first = 1", "at least 2"),
+        ("first = 8", "less than the level 8"),
+    ] {
         let told = error("", &row(keys));
         assert!(told.contains(words) && told.contains("frames.toml, line"), "{told}");
     }
     let told = error("synthetic = { image = \"edges\", law = \"gaussian\", sd = 0.5 }", &row(""));
     assert!(told.contains("scenes that are rendered"), "{told}");
     let lost = study(&toml("", "[[method]]\nid = \"seeker\"\nset = { lost = true }\nadaptive = {}\n"));
-    let failed = place.run(&lost, &Watch::default()).unwrap_err();
-    assert!(matches!(failed, HarnessError::Density { .. }), "{failed}");
-    assert!(failed.to_string().contains("`seeker`") && failed.to_string().contains("way"), "{failed}");
+    let place = Place::new();
+    let summary = place.run(&lost, &Watch::default()).unwrap();
+    // The other rows ran.
+    let [failed] = summary.skipped.as_slice() else { panic!("{:?}", summary.skipped) };
+    assert_eq!((failed.label.as_str(), failed.status.as_str()), ("seeker", "failed"));
+    assert!(
+        failed.reason.contains("no sampling density") && failed.reason.contains("way"),
+        "{}",
+        failed.reason
+    );
+    assert!(summary.cells.iter().any(|cell| cell.label == "mc"));
 }
 
 const EQUAL: &str =

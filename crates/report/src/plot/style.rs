@@ -201,6 +201,7 @@ mod tests {
             reference: String::new(),
             params: serde_json::Value::Null,
             notes: vec![],
+            frames: noisefloor_harness::RowFrames::Uniform,
             estimates_error: false,
         }
     }

@@ -1,5 +1,6 @@
 //! Frames in rounds: samples where a method asks for them.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use noisefloor_denoiser::{Adaptive, Input};
@@ -35,7 +36,10 @@ pub(super) fn render(
         let mut so_far = rounds.frame()?;
         let looking = Instant::now();
         so_far.sanitize();
-        let density = method.density(&Input::new(&so_far)).map_err(|e| failed(e.to_string()))?;
+        // The method's state is not touched again after a panic unless by another cell, which fails on its own.
+        let density = catch_unwind(AssertUnwindSafe(|| method.density(&Input::new(&so_far))));
+        let density =
+            density.map_err(|_| failed("the method panicked".into()))?.map_err(|e| failed(e.to_string()))?;
         density_seconds += looking.elapsed().as_secs_f64();
         let density: Vec<f64> = density.data().iter().copied().map(f64::from).collect();
         if density.len() as u64 != pixels {
@@ -44,7 +48,7 @@ pub(super) fn render(
         // A pixel's share is limited to a multiple of the average, so that no outlier takes the round.
         let most = (u64::from(adaptive.most) * budget).div_ceil(pixels).max(1);
         let most = u32::try_from(most).unwrap_or(u32::MAX);
-        let extra = allocate(&density, budget, 0..=most)?;
+        let extra = allocate(&density, budget, 0..=most).map_err(|e| failed(e.to_string()))?;
         rounds.add(&extra, &progress).map_err(stopped)?;
         let _ = advance(observer, budget);
     }
