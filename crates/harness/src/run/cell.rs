@@ -103,7 +103,7 @@ impl Runner<'_> {
             cell: key,
             study: self.request.study.name.clone(),
             scene: self.scene.id.clone(),
-            sampling: sampling,
+            sampling,
             photon_maps: None,
             spp: spec.spp,
             replicate: spec.replicate,

@@ -31,6 +31,18 @@ const STUDIES: &[BuiltinStudy] = &[
         name: "vfi-check-640",
         toml: include_str!("../../../../benchmarks/studies/vfi-check-640.toml"),
     },
+    BuiltinStudy { name: "rdfc-fig02", toml: include_str!("../../../../benchmarks/studies/rdfc-fig02.toml") },
+    BuiltinStudy { name: "rdfc-fig03", toml: include_str!("../../../../benchmarks/studies/rdfc-fig03.toml") },
+    BuiltinStudy { name: "rdfc-fig04", toml: include_str!("../../../../benchmarks/studies/rdfc-fig04.toml") },
+    BuiltinStudy { name: "rdfc-fig05", toml: include_str!("../../../../benchmarks/studies/rdfc-fig05.toml") },
+    BuiltinStudy { name: "rdfc-fig06", toml: include_str!("../../../../benchmarks/studies/rdfc-fig06.toml") },
+    BuiltinStudy { name: "rdfc-fig07", toml: include_str!("../../../../benchmarks/studies/rdfc-fig07.toml") },
+    BuiltinStudy { name: "rdfc-fig08", toml: include_str!("../../../../benchmarks/studies/rdfc-fig08.toml") },
+    BuiltinStudy { name: "rdfc-fig09", toml: include_str!("../../../../benchmarks/studies/rdfc-fig09.toml") },
+    BuiltinStudy {
+        name: "rdfc-spacetime",
+        toml: include_str!("../../../../benchmarks/studies/rdfc-spacetime.toml"),
+    },
 ];
 
 /// The studies that come with the program, in display order.
