@@ -1,0 +1,8 @@
+//! The method from outside: limiting cases, statistics with known truth, and what must change nothing.
+
+mod common;
+mod hard;
+mod limits;
+mod same;
+mod statistics;
+mod time;
