@@ -68,8 +68,8 @@ fn features_alone_without_any_are_a_clipped_box_mean() {
     let params = Params { features: vec![], window_radius_px: 2, ..Params::default() };
     let image = run(&Rdfc::candidate(Choice::Third, params).unwrap(), &noisy).image;
     for (x, y) in [(0, 0), (10, 7), (19, 3)] {
-        let columns = (x as usize).saturating_sub(2)..(x + 3).min(20);
-        let rows = (y as usize).saturating_sub(2)..(y + 3).min(14);
+        let columns = usize::saturating_sub(x, 2)..(x + 3).min(20);
+        let rows = usize::saturating_sub(y, 2)..(y + 3).min(14);
         let values: Vec<f64> = rows
             .flat_map(|j| columns.clone().map(move |i| (i, j)))
             .map(|(i, j)| f64::from(noisy.color.mean.get(1, i, j)))

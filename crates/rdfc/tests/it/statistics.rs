@@ -91,9 +91,9 @@ fn box_means_are_those_of_a_loop_and_forget_what_left_the_box() {
             for (p, mean) in means.iter().enumerate() {
                 let (x, y) = (p % w, p / w);
                 let mut sum = (0.0, 0.0);
-                for q in 0..w * h {
+                for (q, value) in values.iter().enumerate() {
                     if (q % w).abs_diff(x) <= radius && (q / w).abs_diff(y) <= radius {
-                        sum = (sum.0 + values[q], sum.1 + 1.0);
+                        sum = (sum.0 + value, sum.1 + 1.0);
                     }
                 }
                 assert!((mean - sum.0 / sum.1).abs() < 1e-12, "{w}×{h}, {radius}");
