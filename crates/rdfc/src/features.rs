@@ -2,10 +2,11 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Sampling, Variance};
-use noisefloor_kernels::nlm::{FeatureChannel, MAX_VARIANCE, NlmParams};
+use noisefloor_kernels::nlm::{FeatureChannel, MAX_VALUE, MAX_VARIANCE, NlmParams};
 use rayon::prelude::*;
 
 use crate::VarianceScaling;
+use crate::exposure::scaled as scaled_by;
 use crate::kernel;
 use crate::params::Gradient;
 use crate::settings::Settings;
@@ -36,8 +37,8 @@ impl Feature {
 /// value·factor + offset: what brings a feature to unit range.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unit {
-    factor: f32,
-    offset: f32,
+    factor: f64,
+    offset: f64,
 }
 
 /// The features of `names` that the frame has, in that order, with what brings them to unit range.
@@ -61,7 +62,8 @@ fn largest(image: &Image) -> f32 {
 
 fn unit(id: &FeatureId, mean: &Image) -> Unit {
     // Reciprocals of values so small that they overflow would blow up nothing but rounding.
-    let over = |most: f32| Unit { factor: if most > 1e-30 { 1.0 / most } else { 1.0 }, offset: 0.0 };
+    let over =
+        |most: f32| Unit { factor: if most > 1e-30 { 1.0 / f64::from(most) } else { 1.0 }, offset: 0.0 };
     match id {
         // Averages of unit vectors.
         FeatureId::Normal if largest(mean) <= 1.001 => Unit { factor: 0.5, offset: 0.5 },
@@ -86,14 +88,17 @@ pub(crate) fn prefilter(
     unit: Unit,
     settings: &Settings,
 ) -> Result<Feature, DenoiseError> {
-    let scaled = |image: &Image| image.map(|v| v * unit.factor + unit.offset);
+    // Halves may go beyond the mean's range, but not beyond the engine's.
+    let most = f64::from(MAX_VALUE);
+    let one = |v: f32| (f64::from(v) * unit.factor + unit.offset).clamp(-most, most) as f32;
+    let scaled = |image: &Image| image.map(one);
     let mean = scaled(&feature.mean);
     let halves = feature.halves.as_ref().map(|halves| halves.each_ref().map(scaled));
     let sampled = feature
         .variance
         .as_ref()
         .map(Variance::mean_variance)
-        .map(|v| v.map(|v| (v * unit.factor * unit.factor).min(MAX_VARIANCE)));
+        .map(|v| scaled_by(v, unit.factor * unit.factor).map(|v| v.min(MAX_VARIANCE)));
     let variance = match (&sampled, &halves) {
         (Some(variance), Some(halves)) if scales(settings.scaling, frame.sampling) => {
             scaled_sample_variance(variance, halves, &frame.samples)

@@ -4,6 +4,7 @@ mod candidates;
 mod card;
 mod density;
 mod diagnostics;
+mod exposure;
 mod features;
 mod first_pass;
 mod kernel;

@@ -7,6 +7,7 @@ use noisefloor_kernels::nlm::MAX_PIXELS;
 use crate::candidates::{Candidate, candidates};
 use crate::density::{Outcome, density};
 use crate::diagnostics::{describe_choice, describe_inputs, figures};
+use crate::exposure::Dimmed;
 use crate::features::usable;
 use crate::first_pass::{combined, first_pass};
 use crate::kernel::within_range;
@@ -99,7 +100,6 @@ impl Rdfc {
         input: &Input<'a>,
         timer: &mut StageTimer,
     ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
-        input.check(&self.card())?;
         check_size(self.id, input.target)?;
         // All frames are brought to the target's units.
         let features = usable(input.target, &self.params.features);
@@ -115,34 +115,8 @@ impl Rdfc {
         Ok((target, candidates))
     }
 
-    /// Neighbouring frames in use, the nearest of each side.
-    fn beside<'a>(&self, input: &Input<'a>) -> impl Iterator<Item = &'a Frame> + use<'a> {
-        let k = self.params.neighbors;
-        let before = &input.before[input.before.len().saturating_sub(k)..];
-        before.iter().chain(&input.after[..k.min(input.after.len())])
-    }
-}
-
-impl Default for Rdfc {
-    fn default() -> Self {
-        Self::new(Params::default()).expect("the defaults are in range")
-    }
-}
-
-/// Whether both frames have the same features with the same channels.
-fn alike(a: &Prepared<'_>, b: &Prepared<'_>) -> bool {
-    let shape = |p: &Prepared<'_>| -> Vec<(String, usize)> {
-        p.features.iter().map(|f| (f.name.clone(), f.mean.channels())).collect()
-    };
-    shape(a) == shape(b)
-}
-
-impl Denoiser for Rdfc {
-    fn card(&self) -> MethodCard {
-        card::card(self.id, self.only, &self.params)
-    }
-
-    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+    /// [`Denoiser::denoise`] of frames within the engine's range.
+    fn filter(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         let mut timer = StageTimer::start();
         let (target, mut candidates) = self.start(input, &mut timer)?;
         let diagnostics = input.diagnostics != Diagnostics::Off;
@@ -179,6 +153,41 @@ impl Denoiser for Rdfc {
         Ok(output)
     }
 
+    /// Neighbouring frames in use, the nearest of each side.
+    fn beside<'a>(&self, input: &Input<'a>) -> impl Iterator<Item = &'a Frame> + use<'a> {
+        let k = self.params.neighbors;
+        let before = &input.before[input.before.len().saturating_sub(k)..];
+        before.iter().chain(&input.after[..k.min(input.after.len())])
+    }
+}
+
+impl Default for Rdfc {
+    fn default() -> Self {
+        Self::new(Params::default()).expect("the defaults are in range")
+    }
+}
+
+/// Whether both frames have the same features with the same channels.
+fn alike(a: &Prepared<'_>, b: &Prepared<'_>) -> bool {
+    let shape = |p: &Prepared<'_>| -> Vec<(String, usize)> {
+        p.features.iter().map(|f| (f.name.clone(), f.mean.channels())).collect()
+    };
+    shape(a) == shape(b)
+}
+
+impl Denoiser for Rdfc {
+    fn card(&self) -> MethodCard {
+        card::card(self.id, self.only, &self.params)
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let Some(dimmed) = Dimmed::new(input) else { return self.filter(input) };
+        let mut output = self.filter(&dimmed.input(input))?;
+        dimmed.undo(&mut output);
+        Ok(output)
+    }
+
     fn adaptive(&self) -> Option<&dyn Adaptive> {
         Some(self)
     }
@@ -186,6 +195,10 @@ impl Denoiser for Rdfc {
 
 impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
+        input.check(&self.card())?;
+        // A density has no unit, and 0.01 beside such values none either.
+        let dimmed = Dimmed::new(input);
+        let input = &dimmed.as_ref().map_or(*input, |dimmed| dimmed.input(input));
         let mut timer = StageTimer::start();
         let (target, candidates) = self.start(input, &mut timer)?;
         if self.only.is_some() {

@@ -39,14 +39,14 @@ impl<'a> Prepared<'a> {
                 ],
             });
         };
-        check_values(method, &frame.color.mean)?;
+        check_values(method, &frame.color.mean, MAX_VALUE)?;
         for half in halves {
-            check_values(method, half)?;
+            check_values(method, half, MAX_VALUE)?;
         }
         for feature in features.iter().filter_map(|(id, _)| frame.feature(id)) {
-            check_values(method, &feature.mean)?;
+            check_values(method, &feature.mean, f32::MAX)?;
             for half in feature.halves.iter().flatten() {
-                check_values(method, half)?;
+                check_values(method, half, f32::MAX)?;
             }
         }
         let variance = if scales(settings.scaling, frame.sampling) {
@@ -74,16 +74,16 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Refuses values that the engine has no answer for, with the number of pixels that hold one.
-fn check_values(method: &str, image: &Image) -> Result<(), DenoiseError> {
+/// Refuses values that there is no answer for: not finite ones, as brighter frames come at a lower exposure; with the number of pixels that hold one.
+fn check_values(method: &str, image: &Image, limit: f32) -> Result<(), DenoiseError> {
     // A NaN fails the comparison.
-    let good = |v: f32| v.abs() <= MAX_VALUE;
+    let good = |v: f32| v.abs() <= limit;
     if image.data().iter().fold(true, |all, &v| all & good(v)) {
         return Ok(());
     }
     let bad: Vec<usize> =
         (0..image.pixels()).filter(|&p| image.planes().any(|plane| !good(plane[p]))).collect();
     let (x, y) = (bad[0] % image.width(), bad[0] / image.width());
-    let what = "a value is not finite or above 1e15";
+    let what = "a value is not finite";
     Err(DenoiseError::Undefined { method: method.into(), what, pixels: bad.len(), x, y })
 }
