@@ -1,6 +1,6 @@
-//! Speed of the whole method of rousselle2013rdfc, everything of Algorithm 1 included: on one thread and two, with the features of
-//! its figures (8 channels) and with positions for depths (10). Elements of the throughput are pixels. The source reports
-//! 5.4 s for 1024×1024 pixels with a window radius of 10 on a GeForce GTX TITAN.
+//! Speed of the whole method of rousselle2013rdfc, everything of Algorithm 1 included: on one thread and two, with the
+//! features of its figures (8 channels) and with positions for depths (10). Elements of the throughput are pixels. The
+//! source reports 5.4 s for 1024×1024 pixels with a window radius of 10 on a GeForce GTX TITAN.
 
 use std::hint::black_box;
 use std::time::Duration;

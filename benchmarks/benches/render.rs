@@ -1,5 +1,5 @@
-//! Path samples and rays per second on one thread and on all: built-in scenes at depth 8, with the colour alone and with
-//! the usual features and the virtual flash.
+//! Path samples and rays per second on one thread and on all: built-in scenes at depth 8, with the colour alone and
+//! with the usual features and the virtual flash.
 
 use std::hint::black_box;
 

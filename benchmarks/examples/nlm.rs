@@ -1,5 +1,6 @@
-//! Nanoseconds per pixel-offset of the non-local means engine, on one thread: `cargo run --release -p noisefloor-benchmarks
-//! --example nlm [SIZE]`. The minimum of five runs each; Gflop/s count what the formula needs and no overhead.
+//! Nanoseconds per pixel-offset of the non-local means engine, on one thread: `cargo run --release -p
+//! noisefloor-benchmarks --example nlm [SIZE]`. The minimum of five runs each; Gflop/s count what the formula needs
+//! and no overhead.
 //!
 //! The last line is for `benchmarks/peers/compare.py`: one colour filter, window 21×21, patch 7×7, seconds.
 

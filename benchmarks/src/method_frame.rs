@@ -1,7 +1,8 @@
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
 
-/// A frame for whole methods as from a renderer at 16 low-discrepancy samples: flat surfaces of 40×40 pixels with noise, and features
-/// with a tenth of it. Texture, depth, normal and visibility are 8 channels; with `position` in place of depth they are 10.
+/// A frame for whole methods as from a renderer at 16 low-discrepancy samples: flat surfaces of 40×40 pixels with
+/// noise, and features with a tenth of it. Texture, depth, normal and visibility are 8 channels; with `position` in
+/// place of depth they are 10.
 #[must_use]
 pub fn method_frame(width: usize, height: usize, position: bool) -> Frame {
     let mut state = 1u64;

@@ -1,7 +1,7 @@
 use noisefloor_kernels::nlm::{Channel, FeatureChannel, NlmInputs, Pass, Perturbation, Planes, Rule};
 
-/// Planes for the non-local means engine as from a renderer at 16 samples: flat surfaces of 40×40 pixels with noise, and
-/// features with a tenth of it.
+/// Planes for the non-local means engine as from a renderer at 16 samples: flat surfaces of 40×40 pixels with noise,
+/// and features with a tenth of it.
 #[derive(Debug)]
 pub struct NlmFrame {
     /// Columns.

@@ -1,4 +1,5 @@
-//! Records to summary: means over replicates, intervals, slopes, comparisons, and the sentences a reader must see first.
+//! Records to summary: means over replicates, intervals, slopes, comparisons, and the sentences a reader must see
+//! first.
 
 mod bounds;
 mod cells;

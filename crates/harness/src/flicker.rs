@@ -32,7 +32,8 @@ pub(crate) struct Sequences {
 }
 
 /// Measures every sequence of a study, replicate by replicate: frame t of replicate r belongs to replicate r of the
-/// sequence. What has not run on all frames is left out; a file that cannot be read leaves its sequence out and is told.
+/// sequence. What has not run on all frames is left out; a file that cannot be read leaves its sequence out and is
+/// told.
 pub(crate) fn measure(study: &Study, context: &Context, records: &[Record], root: &Path) -> Sequences {
     let mut out = Sequences::default();
     for (name, frames) in study.sequences() {

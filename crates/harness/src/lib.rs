@@ -4,7 +4,8 @@
 //! the [`record`]s and the [`summary`]; a report never runs anything.
 //!
 //! * A [`Study`] is a file: scenes, samples per pixel, replicates, rows of methods, metrics.
-//! * [`run`] plans it, renders or imports its frames, denoises, measures, appends one [`record::Record`] per finished cell,
+//! * [`run`] plans it, renders or imports its frames, denoises, measures, appends one [`record::Record`] per finished
+//!   cell,
 //!   and analyses. Called again it continues.
 //! * [`reanalyse`] makes the [`summary::Summary`] again from what a study's folder keeps.
 

@@ -49,8 +49,8 @@ pub(crate) const ADAPTIVE: &str = "adaptive_rounds";
 /// Key in a frame's provenance: seconds that the decisions took where to place samples.
 pub(crate) const DENSITY_SECONDS: &str = "density_seconds";
 
-/// Which photon maps carried the light of a frame, if any did. A photon-mapped frame that does not say it, because it was
-/// rendered alone and imported, counts as one whose maps the truth does not share.
+/// Which photon maps carried the light of a frame, if any did. A photon-mapped frame that does not say it, because it
+/// was rendered alone and imported, counts as one whose maps the truth does not share.
 pub(crate) fn photon_maps(frame: &Frame) -> Option<Maps> {
     let told = frame.provenance.extra.get(PHOTON_MAPS);
     if let Some(maps) =

@@ -60,8 +60,8 @@ pub trait Observer: Sync {
         let _ = stage;
     }
 
-    /// `samples` more camera samples are rendered; all calls add up to [`Workload::samples`] unless a damaged cache file
-    /// has to be made again.
+    /// `samples` more camera samples are rendered; all calls add up to [`Workload::samples`] unless a damaged cache
+    /// file has to be made again.
     fn rendered(&self, samples: u64) {
         let _ = samples;
     }

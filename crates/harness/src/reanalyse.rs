@@ -14,11 +14,12 @@ use crate::store::{Layout, Lock, Records, read_json, write_json};
 use crate::study::Study;
 use crate::summary::Summary;
 
-/// Makes the analysis of a study's folder again and writes `summary.json`. Nothing is rendered or denoised; a study that was
-/// stopped is analysed as far as it went.
+/// Makes the analysis of a study's folder again and writes `summary.json`. Nothing is rendered or denoised; a study
+/// that was stopped is analysed as far as it went.
 ///
-/// `recompute` computes the metrics again from the kept images and references, as after a change of their definitions, and
-/// replaces them in the records. Coverage, bounds, estimates of a method's own error and times stay as they were recorded.
+/// `recompute` computes the metrics again from the kept images and references, as after a change of their definitions,
+/// and replaces them in the records. Coverage, bounds, estimates of a method's own error and times stay as they were
+/// recorded.
 ///
 /// # Errors
 /// [`HarnessError::Io`] or [`HarnessError::Kept`] if the folder is none of a study or a file of it is damaged,

@@ -112,8 +112,8 @@ pub struct Record {
     pub diagnostics: BTreeMap<String, String>,
 }
 
-/// A frame whose samples were placed in rounds, where its row's method asked for them. They depend on what was seen, so intervals
-/// and bounds say nothing of it.
+/// A frame whose samples were placed in rounds, where its row's method asked for them. They depend on what was seen,
+/// so intervals and bounds say nothing of it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct AdaptiveRecord {
     /// Rounds, the first of them uniform.

@@ -63,17 +63,18 @@ impl std::fmt::Debug for StudyRun<'_> {
     }
 }
 
-/// Runs a study, or continues it: finished cells are kept, the others are run one after the other, each is on disk before
-/// the next begins. Ends with the analysis, written to `summary.json` and returned.
+/// Runs a study, or continues it: finished cells are kept, the others are run one after the other, each is on disk
+/// before the next begins. Ends with the analysis, written to `summary.json` and returned.
 ///
 /// A row whose inputs a frame does not have is skipped, one that ends in an error is failed; both are recorded with the
 /// reason and do not stop the study. A violated enclosure does not stop it either, but is the first of
 /// [`Summary::warnings`], see [`crate::violations`].
 ///
 /// # Errors
-/// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`] and [`HarnessError::Folder`] for names that do not exist,
-/// [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and [`HarnessError::Image`] for a
-/// full disk or an unwritable folder, [`HarnessError::Cancelled`]. Finished cells are intact after any of them.
+/// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`] and [`HarnessError::Folder`] for names that do
+/// not exist, [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and
+/// [`HarnessError::Image`] for a full disk or an unwritable folder, [`HarnessError::Cancelled`]. Finished cells are
+/// intact after any of them.
 pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     let study = request.study;
     let plan = Plan::new(study, request.registry, request.size)?;
@@ -99,8 +100,8 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     Ok(summary)
 }
 
-/// Describes machine and rows, on disk before any work. A run that finds everything finished keeps the description of the one
-/// that did the work, because the times are from there.
+/// Describes machine and rows, on disk before any work. A run that finds everything finished keeps the description of
+/// the one that did the work, because the times are from there.
 fn begin(
     request: &StudyRun<'_>,
     plan: &Plan,

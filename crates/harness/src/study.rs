@@ -138,10 +138,12 @@ pub struct SceneSpec {
     /// Which moment of it is shown, and how its light is carried; for rendered scenes.
     #[serde(default)]
     pub shot: Shot,
-    /// Parameters that rows take here instead of their own defaults, where a row's method has them and the row does not set them.
+    /// Parameters that rows take here instead of their own defaults, where a row's method has them and the row does
+    /// not set them.
     #[serde(default)]
     pub set: Map<String, Value>,
-    /// Samples per pixel of frames that get as much time as another row with its denoising, see [`RowFrames::EqualTime`].
+    /// Samples per pixel of frames that get as much time as another row with its denoising, see
+    /// [`RowFrames::EqualTime`].
     #[serde(default)]
     pub equal_time_spp: Option<u32>,
     /// Name of the sequence that it is a frame of, in the order of [`Shot::frame`]; flicker is measured over it.

@@ -252,7 +252,8 @@ pub struct CellSummary {
     pub denoise_seconds_range: Option<[f64; 2]>,
     /// Median seconds of rendering the input.
     pub render_seconds: Option<f64>,
-    /// How many times more samples plain Monte Carlo needs for the same error (squared-error metrics only): metric id to multiplier.
+    /// How many times more samples plain Monte Carlo needs for the same error (squared-error metrics only): metric id
+    /// to multiplier.
     pub equal_error: BTreeMap<String, Interval>,
     /// Whether the multiplier reaches beyond the rendered levels.
     pub equal_error_extrapolated: BTreeMap<String, bool>,
@@ -361,10 +362,10 @@ pub struct PaperResult {
     pub paper: [f64; 2],
     /// Where the source says it.
     pub source: String,
-    /// `agrees` (our interval meets the source's range), `larger gain than the paper's`, `smaller gain than the paper's`,
-    /// `larger loss than the paper's` and `smaller loss than the paper's` where the source's ratio is not below 1,
-    /// `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without an interval,
-    /// `no number` without a ratio.
+    /// `agrees` (our interval meets the source's range), `larger gain than the paper's`, `smaller gain than the
+    /// paper's`, `larger loss than the paper's` and `smaller loss than the paper's` where the source's ratio is not
+    /// below 1, `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without
+    /// an interval, `no number` without a ratio.
     pub verdict: String,
     /// Why there is no ratio.
     #[serde(default)]
@@ -390,8 +391,8 @@ pub struct EstimateSummary {
     pub effect: Interval,
     /// Whether `effect` is a ratio: all means of all replicates are positive.
     pub is_ratio: bool,
-    /// `calibrated` (the interval contains equality), `too optimistic` (estimates too small an error), `too pessimistic`, or
-    /// `undecided` without an interval.
+    /// `calibrated` (the interval contains equality), `too optimistic` (estimates too small an error), `too
+    /// pessimistic`, or `undecided` without an interval.
     pub verdict: String,
     /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
     pub deciles: Vec<EstimateBin>,
@@ -419,11 +420,11 @@ pub struct FlickerSummary {
     pub spp: u32,
     /// Row label.
     pub label: String,
-    /// Unbiased variance over the frames of the error of each pixel and channel, mean over these, less the mean variance of
-    /// the references; mean over replicates.
+    /// Unbiased variance over the frames of the error of each pixel and channel, mean over these, less the mean
+    /// variance of the references; mean over replicates.
     pub variance: Interval,
-    /// The same over that of the row `first` (geometric mean over paired replicates); absent for that row itself, and where
-    /// a corrected variance is not positive.
+    /// The same over that of the row `first` (geometric mean over paired replicates); absent for that row itself, and
+    /// where a corrected variance is not positive.
     pub ratio_to_first: Option<Interval>,
     /// Label of the first row of the study that has numbers here.
     pub first: String,
@@ -501,8 +502,8 @@ pub struct EqualTime {
     pub with: String,
     /// Samples per pixel that its frames had, as the study says.
     pub used: u32,
-    /// Samples per pixel that the medians of this run imply: the level, and the other row's denoising time over the time of a
-    /// sample per pixel. Of an adaptive row all its time, since placing samples is part of it.
+    /// Samples per pixel that the medians of this run imply: the level, and the other row's denoising time over the
+    /// time of a sample per pixel. Of an adaptive row all its time, since placing samples is part of it.
     pub implied: Option<f64>,
     /// Median seconds of the other row's denoising.
     pub denoise_seconds: f64,

@@ -88,9 +88,9 @@ fn with_counts<'a>(prepared: &'a Prepared<'_>, counts: &'a Image) -> Planes<'a> 
     planes
 }
 
-/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is outside [0, 1] or next
-/// to nothing.
-fn steps(color: &Image) -> Image {
+/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is outside [0,
+/// 1] or next to nothing.
+pub(crate) fn steps(color: &Image) -> Image {
     let magnitude: f64 = color.data().iter().map(|v| f64::from(v.abs())).sum();
     // An image has at least one value.
     let least = (SMALL * magnitude / color.data().len() as f64) as f32;

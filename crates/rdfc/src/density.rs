@@ -26,8 +26,8 @@ pub(crate) struct Outcome<'a> {
     pub contributing: &'a Image,
 }
 
-/// Relative error estimate times W(p): how much a further sample of p does for the filtered image. With W = Σ w/(1 + Σ w·n) as
-/// in the text, or as programmed Σ w/Σ w·n. The product is filtered, because it is as noisy as the estimate is.
+/// Relative error estimate times W(p): how much a further sample of p does for the filtered image. With W = Σ w/(1 + Σ
+/// w·n) as in the text, or as programmed Σ w/Σ w·n. The product is filtered, because it is as noisy as the estimate is.
 pub(crate) fn density(
     method: &str,
     target: &Prepared<'_>,

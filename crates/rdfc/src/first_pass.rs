@@ -30,7 +30,8 @@ pub(crate) struct FirstPass {
     pub binary: Image,
     /// Weights of the candidates, one channel each; they sum to 1.
     pub weights: Image,
-    /// Estimated squared error of the combination per colour channel: the candidates' own, not filtered, with its weights.
+    /// Estimated squared error of the combination per colour channel: the candidates' own, not filtered, with its
+    /// weights.
     pub sure: Image,
 }
 
@@ -105,7 +106,8 @@ fn binary_maps(candidates: &[Candidate], errors: &Image, settings: &Settings) ->
     maps
 }
 
-/// Divides the channels by their sum. The maps before filtering sum to 1 and share their weights, so the sum is 1 up to rounding.
+/// Divides the channels by their sum. The maps before filtering sum to 1 and share their weights, so the sum is 1 up
+/// to rounding.
 fn normalized(maps: &Image) -> Image {
     let mut out = maps.clone();
     for p in 0..maps.pixels() {

@@ -94,7 +94,7 @@ impl Rdfc {
         &self.params
     }
 
-    /// Prepares the target and the neighbours in use, and runs the candidates.
+    /// Prepares the target and its neighbours, all of which are in use, and runs the candidates.
     fn start<'a>(
         &self,
         input: &Input<'a>,
@@ -106,7 +106,12 @@ impl Rdfc {
         let prepare =
             |frame, timer: &mut StageTimer| Prepared::new(self.id, frame, &features, &self.settings, timer);
         let target = prepare(input.target, timer)?;
-        let beside = self.beside(input).map(|frame| prepare(frame, timer)).collect::<Result<Vec<_>, _>>()?;
+        let beside = input
+            .before
+            .iter()
+            .chain(input.after)
+            .map(|frame| prepare(frame, timer))
+            .collect::<Result<Vec<_>, _>>()?;
         // A neighbour that lacks a feature of the target has no distances to it.
         let beside: Vec<Prepared<'_>> = beside.into_iter().filter(|frame| alike(&target, frame)).collect();
         let which = self.only.map_or_else(|| Choice::ALL.to_vec(), |choice| vec![choice]);
@@ -153,11 +158,11 @@ impl Rdfc {
         Ok(output)
     }
 
-    /// Neighbouring frames in use, the nearest of each side.
-    fn beside<'a>(&self, input: &Input<'a>) -> impl Iterator<Item = &'a Frame> + use<'a> {
+    /// The input with the neighbouring frames in use, the nearest of each side.
+    fn in_use<'a>(&self, input: &Input<'a>) -> Input<'a> {
         let k = self.params.neighbors;
         let before = &input.before[input.before.len().saturating_sub(k)..];
-        before.iter().chain(&input.after[..k.min(input.after.len())])
+        input.with_neighbors(before, &input.after[..k.min(input.after.len())])
     }
 }
 
@@ -182,6 +187,7 @@ impl Denoiser for Rdfc {
 
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         input.check(&self.card())?;
+        let input = &self.in_use(input);
         let Some(dimmed) = Dimmed::new(input) else { return self.filter(input) };
         let mut output = self.filter(&dimmed.input(input))?;
         dimmed.undo(&mut output);
@@ -196,6 +202,7 @@ impl Denoiser for Rdfc {
 impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
         input.check(&self.card())?;
+        let input = &self.in_use(input);
         // A density has no unit, and 0.01 beside such values none either.
         let dimmed = Dimmed::new(input);
         let input = &dimmed.as_ref().map_or(*input, |dimmed| dimmed.input(input));

@@ -74,7 +74,8 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// Refuses values that there is no answer for: not finite ones, as brighter frames come at a lower exposure; with the number of pixels that hold one.
+/// Refuses values that there is no answer for: not finite ones, as brighter frames come at a lower exposure; with the
+/// number of pixels that hold one.
 fn check_values(method: &str, image: &Image, limit: f32) -> Result<(), DenoiseError> {
     // A NaN fails the comparison.
     let good = |v: f32| v.abs() <= limit;

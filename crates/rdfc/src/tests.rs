@@ -1,1 +1,53 @@
-//! Tests of the whole method.
+//! Parts that no output shows by themselves.
+
+use noisefloor_frame::Image;
+use noisefloor_kernels::nlm::{Center, Denominator, Rule};
+
+use crate::candidates::steps;
+use crate::features::squared_slope;
+use crate::settings::Settings;
+use crate::{Gradient, Params, Profile, SecondPass, Ties};
+
+#[test]
+fn profiles_decide_what_is_left_open() {
+    let paper = Settings::new(&Params::default());
+    assert_eq!(
+        (paper.denominator, paper.center, paper.rule),
+        (Denominator::Center, Center::One, Rule::Exact)
+    );
+    assert_eq!((paper.ties, paper.second_pass, paper.map_patch), (Ties::Earlier, SecondPass::Text, 1));
+    assert!(!paper.plain_density);
+    let program = Settings::new(&Params { profile: Profile::Authors, ..Params::default() });
+    let center = Center::LargestNeighbor { least: 1e-3 };
+    assert_eq!((program.denominator, program.center, program.rule), (Denominator::Pair, center, Rule::Joint));
+    assert_eq!((program.ties, program.second_pass, program.map_patch), (Ties::Later, SecondPass::Code, 3));
+    assert!(program.plain_density);
+    let told = Params { ties: Some(Ties::Later), ..Params::default() };
+    assert_eq!(Settings::new(&told).ties, Ties::Later);
+}
+
+#[test]
+fn steps_are_a_hundredth_or_none_for_all_channels() {
+    // Pixels: fine; one channel above 1; one zero; one negative; one next to nothing.
+    let values = [[0.5, 0.2, 1.0], [0.5, 1.5, 0.5], [0.0, 0.5, 0.5], [-0.1, 0.5, 0.5], [1e-8, 0.5, 0.5]];
+    let color = Image::from_fn(5, 1, 3, |c, x, _| values[x][c]);
+    let steps = steps(&color);
+    for c in 0..3 {
+        assert_eq!(steps.get(c, 0, 0), 0.01 * values[0][c]);
+        assert!((1..5).all(|x| steps.get(c, x, 0) == 0.0));
+    }
+}
+
+#[test]
+fn slopes_follow_their_rule() {
+    // Columns 0, 1, 3, 7, 7: differences 1, 2, 4, 0.
+    let row = [0.0, 1.0, 3.0, 7.0, 7.0];
+    let image = Image::from_fn(5, 3, 1, |_, x, _| row[x]);
+    let middle = |rule| -> Vec<f32> { (0..5).map(|x| squared_slope(&image, rule).get(0, x, 1)).collect() };
+    assert_eq!(middle(Gradient::MinHalf), [0.0, 0.25, 1.0, 0.0, 0.0]);
+    assert_eq!(middle(Gradient::Central), [1.0, 2.25, 9.0, 4.0, 0.0]);
+    assert_eq!(middle(Gradient::Off), [0.0; 5]);
+    // Both axes add up.
+    let both = Image::from_fn(3, 3, 1, |_, x, y| x as f32 + 2.0 * y as f32);
+    assert_eq!(squared_slope(&both, Gradient::MinHalf).get(0, 1, 1), 0.25 + 1.0);
+}

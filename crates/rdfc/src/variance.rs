@@ -85,7 +85,8 @@ pub fn box_mean(values: &[f64], width: usize, radius: usize) -> Vec<f64> {
     out
 }
 
-/// Sums over 2·`radius`+1 neighbours in a line, zero outside: the end of one run of that length and the start of the next.
+/// Sums over 2·`radius`+1 neighbours in a line, zero outside: the end of one run of that length and the start of the
+/// next.
 fn line_sums(row: &[f64], radius: usize, out: &mut [f64]) {
     let side = 2 * radius + 1;
     let padded = (row.len() + 2 * radius).next_multiple_of(side);
@@ -107,8 +108,8 @@ fn line_sums(row: &[f64], radius: usize, out: &mut [f64]) {
     }
 }
 
-/// Sample variance of the mean scaled to the level of the two-buffer variance, per channel: the first has the structure, the second
-/// the right level under low-discrepancy sampling (Sec. 4).
+/// Sample variance of the mean scaled to the level of the two-buffer variance, per channel: the first has the
+/// structure, the second the right level under low-discrepancy sampling (Sec. 4).
 #[must_use]
 pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &Samples) -> Image {
     let (width, height, channels) = (variance.width(), variance.height(), variance.channels());
@@ -125,8 +126,8 @@ pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &S
     out
 }
 
-/// Two-buffer variance of the mean, smoothed over 3×3 pixels with a Gaussian of standard deviation 0.5 pixels, clipped at
-/// the border: the residual variance of something filtered (Sec. 5).
+/// Two-buffer variance of the mean, smoothed over 3×3 pixels with a Gaussian of standard deviation 0.5 pixels, clipped
+/// at the border: the residual variance of something filtered (Sec. 5).
 #[must_use]
 pub fn smoothed_half_variance(halves: &[Image; 2], samples: &Samples) -> Image {
     let (width, height, channels) = (halves[0].width(), halves[0].height(), halves[0].channels());

@@ -25,7 +25,8 @@ pub(super) fn equal_time(index: &Index<'_>) -> Vec<EqualTime> {
                     median(own.iter().filter_map(|r| r.seconds.render)).map(|s| s / f64::from(used));
                 let render = median(other.iter().filter_map(|r| r.seconds.render));
                 let per_sample = per_sample.filter(|s| *s > 0.0);
-                // The same samples, and as many as the filter's time buys. Of an adaptive row all its time: choosing pixels is in it.
+                // The same samples, and as many as the filter's time buys. Of an adaptive row all its time: choosing
+                // pixels is in it.
                 let adaptive = other.iter().any(|r| r.adaptive.is_some());
                 let implied = per_sample.and_then(|per_sample| {
                     let spent = if adaptive { denoise + render? } else { denoise };

@@ -31,7 +31,8 @@ pub(super) fn value(record: &Record, class: Option<&str>, metric: &str) -> Optio
     values.get(metric).copied().flatten()
 }
 
-/// Mean of a metric over replicates; with one replicate, its interval within the image. `None` if no replicate has a value.
+/// Mean of a metric over replicates; with one replicate, its interval within the image. `None` if no replicate has a
+/// value.
 pub(super) fn metric(
     records: &[&Record],
     class: Option<&str>,

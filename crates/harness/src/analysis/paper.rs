@@ -62,7 +62,8 @@ fn one(
     }
 }
 
-/// Our interval against the source's range. Without an interval nothing is said: a single number can be anywhere by chance.
+/// Our interval against the source's range. Without an interval nothing is said: a single number can be anywhere by
+/// chance.
 fn verdict(ours: &Interval, paper: PaperRatio) -> &'static str {
     let (Some(low), Some(high)) = (ours.low, ours.high) else { return "undecided" };
     if high < paper.low {

@@ -232,7 +232,8 @@ mod tests {
 
     #[test]
     fn what_the_references_contribute_is_predicted() {
-        // The output's error is the same in all channels and so is the references': the prediction is then no upper limit.
+        // The output's error is the same in all channels and so is the references': the prediction is then no upper
+        // limit.
         let (v, s, bias) = (0.04, 0.09, 0.5);
         let outputs: Vec<Image> =
             (0..FRAMES as u64).map(|f| noisy(f as f64 + bias, 0.3, [2, 0, f], false)).collect();

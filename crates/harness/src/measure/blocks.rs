@@ -30,8 +30,8 @@ impl Blocks {
         self.of_pixel[pixel]
     }
 
-    /// One tally per block; `count` gives that of everything, then those of the groups. `None` if the shapes disagree, which
-    /// the same count over classes has already told.
+    /// One tally per block; `count` gives that of everything, then those of the groups. `None` if the shapes disagree,
+    /// which the same count over classes has already told.
     pub(super) fn tallies<T>(
         &self,
         count: impl Fn(Groups<'_>) -> Result<Vec<T>, ShapeError>,
@@ -50,8 +50,8 @@ impl Blocks {
     }
 }
 
-/// Standard error of Σhits/Σtotals: the spread of block sums about the common rate, the linear form of a bootstrap over the
-/// blocks. `None` with fewer than 2 blocks that have anything.
+/// Standard error of Σhits/Σtotals: the spread of block sums about the common rate, the linear form of a bootstrap
+/// over the blocks. `None` with fewer than 2 blocks that have anything.
 pub(super) fn within_se<T>(tallies: &[T], hits_and_total: impl Fn(&T) -> (u64, u64)) -> Option<f64> {
     let blocks: Vec<(f64, f64)> = tallies
         .iter()

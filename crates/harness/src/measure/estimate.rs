@@ -36,9 +36,9 @@ impl Sums {
 }
 
 impl Measure<'_> {
-    /// Compares an estimate with the squared errors that [`noisefloor_metrics::Measurer::squared_errors`] gives, both per
-    /// pixel and channel. Pixel-channels without a measured error take no part. `None` if none are left, or if the sizes
-    /// differ.
+    /// Compares an estimate with the squared errors that [`noisefloor_metrics::Measurer::squared_errors`] gives, both
+    /// per pixel and channel. Pixel-channels without a measured error take no part. `None` if none are left, or if the
+    /// sizes differ.
     pub(crate) fn estimate(&self, estimate: &Image, squared: &[f64]) -> Option<EstimateCheck> {
         let pixels = self.classes.of_pixel.len();
         if pixels == 0 || estimate.data().len() != squared.len() || !squared.len().is_multiple_of(pixels) {

@@ -7,9 +7,9 @@ use noisefloor_metrics::{ErrorKind, MetricError, error_map};
 
 use crate::measure::blocks::Blocks;
 
-/// Metric id to the standard error of the logarithm of error(test)/error(baseline): the spread of each block's share of the one
-/// error minus its share of the other, the linear form of a bootstrap that draws the same blocks for both. Only squared errors
-/// and their root; absent where an error is not positive or there are fewer than 2 blocks.
+/// Metric id to the standard error of the logarithm of error(test)/error(baseline): the spread of each block's share
+/// of the one error minus its share of the other, the linear form of a bootstrap that draws the same blocks for both.
+/// Only squared errors and their root; absent where an error is not positive or there are fewer than 2 blocks.
 pub(crate) fn ratio_within_se(
     test: &Image,
     baseline: &Image,

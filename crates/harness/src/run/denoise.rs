@@ -24,8 +24,8 @@ pub(super) struct Denoised {
     pub(super) diagnostics: Vec<(String, Image)>,
 }
 
-/// Runs a row on a sanitised frame and its neighbours. `diagnostics` asks for diagnostic images that probe this pixel, given in fractions of
-/// the image (`Some(None)`: where the method likes).
+/// Runs a row on a sanitised frame and its neighbours. `diagnostics` asks for diagnostic images that probe this pixel,
+/// given in fractions of the image (`Some(None)`: where the method likes).
 pub(super) fn denoise(
     row: &Row,
     input: Input<'_>,

@@ -231,8 +231,8 @@ fn frame_identity(look: &Value, record: &BTreeMap<Quantity, Keep>, spp: u32, see
     })
 }
 
-/// Hash of the bits of a tiny frame: changes whenever the renderer gives other numbers, so that nobody has to remember to
-/// raise a version.
+/// Hash of the bits of a tiny frame: changes whenever the renderer gives other numbers, so that nobody has to remember
+/// to raise a version.
 fn fingerprint(probe: &RenderRequest<'_>) -> Result<String, HarnessError> {
     let frame = render(probe, &noisefloor_render::Silent)?;
     let mut hasher = blake3::Hasher::new();
@@ -283,7 +283,8 @@ impl Rendered {
         self.parts.iter().filter(|(key, _)| !cache.has(key)).map(|_| per_part).sum()
     }
 
-    /// The frame of the same replicate with another number of samples in every pixel: that of a study which has it as a level.
+    /// The frame of the same replicate with another number of samples in every pixel: that of a study which has it as
+    /// a level.
     pub(super) fn with_samples(&self, frame: &FrameSpec, spp: u32) -> FrameSpec {
         let seed = frame_seed(self.study_seed, &self.identity, spp, frame.replicate);
         let key = key_of(&frame_identity(&self.look, &self.record, spp, seed));

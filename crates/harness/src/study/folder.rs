@@ -8,12 +8,13 @@ use crate::study::check::{Lines, check};
 use crate::study::{MethodRow, SceneSource, SceneSpec, Shot, Study};
 
 impl Study {
-    /// A study of somebody else's frames: the folder itself, or each of its sub-folders, with a reference in it. `spp` is
-    /// the sample count of frames that do not say theirs; the rows are the caller's, because the harness names no method.
+    /// A study of somebody else's frames: the folder itself, or each of its sub-folders, with a reference in it. `spp`
+    /// is the sample count of frames that do not say theirs; the rows are the caller's, because the harness names no
+    /// method.
     ///
     /// # Errors
-    /// [`HarnessError::Image`] if there are no frames or no reference, [`HarnessError::Folder`] for `spp` with frames of
-    /// several levels, [`HarnessError::Field`] for rows of equal label.
+    /// [`HarnessError::Image`] if there are no frames or no reference, [`HarnessError::Folder`] for `spp` with frames
+    /// of several levels, [`HarnessError::Field`] for rows of equal label.
     pub fn for_folder(path: &Path, spp: Option<u32>, rows: Vec<MethodRow>) -> Result<Self, HarnessError> {
         let folders = scan_scenes(path, &ReadOptions { spp })?;
         let name = clean(&path.canonicalize().unwrap_or_else(|_| path.to_owned()));

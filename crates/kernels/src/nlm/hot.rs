@@ -106,8 +106,8 @@ pub(super) struct Constants {
     pub derivative: bool,
     /// Whether it moves all channels at once, and p only as the centre of its own patch.
     pub joint: bool,
-    /// Factor of Φ²·D·channels to an exponent of 2, for pairs, one per feature: −log₂e/(k_f²·channels) is folded into the pixel
-    /// planes otherwise.
+    /// Factor of Φ²·D·channels to an exponent of 2, for pairs, one per feature: −log₂e/(k_f²·channels) is folded into
+    /// the pixel planes otherwise.
     pub pair_scale: f32,
 }
 
@@ -148,7 +148,8 @@ unsafe fn at<S: Simd>(plane: &[f32], index: usize) -> S::F {
     unsafe { S::load(plane.as_ptr().add(index)) }
 }
 
-/// Reads the vector `i` values after `index` of `plane`, 0 ≤ `i` < [`MAX_BLOCK`]; several of one `index` share what they read.
+/// Reads the vector `i` values after `index` of `plane`, 0 ≤ `i` < [`MAX_BLOCK`]; several of one `index` share what
+/// they read.
 ///
 /// # Safety
 /// As [`at`], with 2·`LANES` values at `index`.
@@ -272,8 +273,8 @@ unsafe fn all_columns<S: Simd, const G: usize, const BIG: usize, const SMALL: us
     }
 }
 
-/// Vertical patch sums of offsets `first..first + N` of the block for radius `BIG`, and for `SMALL` if that is another, on the
-/// tile and `BIG` columns on both sides.
+/// Vertical patch sums of offsets `first..first + N` of the block for radius `BIG`, and for `SMALL` if that is
+/// another, on the tile and `BIG` columns on both sides.
 ///
 /// Walks down columns of vectors, the last 2·`BIG` rows of distances in registers.
 ///
@@ -291,7 +292,8 @@ unsafe fn patch_columns<S: Simd, const BIG: usize, const SMALL: usize, const N: 
     let shift = block.dy * guide.pitch as isize + block.dx + first as isize;
     let mut x = 0;
     // SAFETY: the caller vouches for the instruction set; the guide copies reach `reach + patch` pixels beyond
-    // the tile on every side and a block more on the right, and the sums hold the tile and `patch` columns on both sides.
+    // the tile on every side and a block more on the right, and the sums hold the tile and `patch` columns on both
+    // sides.
     unsafe {
         while x < tile.width + 2 * BIG {
             let mut window = [[S::splat(0.0); N]; 2 * MAX_PATCH_RADIUS + 1];
@@ -414,7 +416,8 @@ unsafe fn vector<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block
     }
 }
 
-/// Exponents of 2 of the feature weights for both τ, at most 0; far below outside the image and for offsets that do not count.
+/// Exponents of 2 of the feature weights for both τ, at most 0; far below outside the image and for offsets that do
+/// not count.
 ///
 /// # Safety
 /// As [`pass`].

@@ -98,8 +98,8 @@ impl Layout {
         2 * self.channels * self.guide.plane
     }
 
-    /// Pixel plane of a feature channel: 0 its values, 1 their negative variances, 2 and 3 what differences are scaled by for
-    /// each τ.
+    /// Pixel plane of a feature channel: 0 its values, 1 their negative variances, 2 and 3 what differences are scaled
+    /// by for each τ.
     pub fn pixel_feature(&self, kind: usize, channel: usize) -> usize {
         (kind * self.feature_channels + channel) * self.pixel.plane
     }

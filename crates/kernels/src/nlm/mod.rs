@@ -1,8 +1,8 @@
 //! Joint non-local means with known variances: the filter that rousselle2013rdfc builds everything from (Sec. 4), and
 //! without features that of its predecessor for colour alone.
 //!
-//! For pixel p and its neighbours q in the window, clipped to the image, with guide g of variance v (C channels), features f_j of
-//! variance v_j and spread s_j:
+//! For pixel p and its neighbours q in the window, clipped to the image, with guide g of variance v (C channels),
+//! features f_j of variance v_j and spread s_j:
 //!
 //! ```text
 //! Δ²_c(p,q) = ((g_c(p) − g_c(q))² − κ·(v_c(p) + min(v_c(p), v_c(q)))) / (1e-10 + k²·(v_c(p) + v_c(q))),  at most 1e4
@@ -12,9 +12,10 @@
 //! F(p)      = Σ_q w(p,q)·u(q) / Σ_q w(p,q)
 //! ```
 //!
-//! exp(−max(a, b)) is the minimum of both weights. w(p,p) = 1, so the sum is at least 1. Taps outside the image read the mirrored
-//! pixel (index −i reads i). Any number of planes u is filtered with the same weights; one sweep over the window serves
-//! several [`Pass`]es, which differ in patch and τ and share the rest. Frames beside the target widen the window in time.
+//! exp(−max(a, b)) is the minimum of both weights. w(p,p) = 1, so the sum is at least 1. Taps outside the image read
+//! the mirrored pixel (index −i reads i). Any number of planes u is filtered with the same weights; one sweep over the
+//! window serves several [`Pass`]es, which differ in patch and τ and share the rest. Frames beside the target widen
+//! the window in time.
 //!
 //! With a [`Perturbation`] a pass also gives the derivative of the filtered guide by the guide's own value at p, as a
 //! finite difference: what Stein's unbiased risk estimate needs.

@@ -39,8 +39,8 @@ pub struct NlmParams {
     pub window_radius: usize,
     /// k: damping of guide distances, [`MIN_K`] to [`MAX_K`]. Larger blurs more.
     pub k: f32,
-    /// κ: share of the expected noise that is taken off squared guide differences, 0 to 4; 1 makes d² zero on average where only noise
-    /// differs.
+    /// κ: share of the expected noise that is taken off squared guide differences, 0 to 4; 1 makes d² zero on average
+    /// where only noise differs.
     pub cancellation: f32,
     /// k_f: damping of feature distances, [`MIN_K`] to [`MAX_K`].
     pub feature_k: f32,
@@ -98,8 +98,8 @@ pub struct FeatureChannel<'a> {
     pub value: &'a [f32],
     /// Residual variances of the values, 0 to [`MAX_VARIANCE`].
     pub variance: &'a [f32],
-    /// s: what a difference is measured against beside τ, 0 to [`MAX_VARIANCE`]: in rousselle2013rdfc the larger of variance and
-    /// squared gradient.
+    /// s: what a difference is measured against beside τ, 0 to [`MAX_VARIANCE`]: in rousselle2013rdfc the larger of
+    /// variance and squared gradient.
     pub spread: &'a [f32],
 }
 
@@ -120,8 +120,8 @@ pub struct Planes<'a> {
 /// Steps of the finite difference.
 #[derive(Clone, Copy, Debug)]
 pub struct Perturbation<'a> {
-    /// δ for each of the guide's three channels at each pixel, 0 to [`MAX_VALUE`]. Where it is 0 the derivative is w(p,p)/Σw, the
-    /// value for fixed weights.
+    /// δ for each of the guide's three channels at each pixel, 0 to [`MAX_VALUE`]. Where it is 0 the derivative is
+    /// w(p,p)/Σw, the value for fixed weights.
     pub step: [&'a [f32]; 3],
     /// How the guide's value at p is moved.
     pub rule: Rule,
@@ -130,8 +130,9 @@ pub struct Perturbation<'a> {
 /// How the guide's value at p is moved for the derivative.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// Each channel alone, wherever p is the centre of its own patch or a tap of a neighbour's: what running the filter again
-    /// would give, but for pixels nearer to the border than f, where the mirrored copies of p stay as they were.
+    /// Each channel alone, wherever p is the centre of its own patch or a tap of a neighbour's: what running the
+    /// filter again would give, but for pixels nearer to the border than f, where the mirrored copies of p stay as
+    /// they were.
     Exact,
     /// All channels at once and the centre of p's own patch only, as in the authors' program.
     Joint,

@@ -215,8 +215,8 @@ impl Job<'_> {
         self.finish(sums, pixel, tile, out);
     }
 
-    /// Copies a frame's guide and variances with their surroundings, mirrored at the border. Variances are scaled by k², because
-    /// that is how denominators have them; scaled values would lose what close ones differ by.
+    /// Copies a frame's guide and variances with their surroundings, mirrored at the border. Variances are scaled by
+    /// k², because that is how denominators have them; scaled values would lose what close ones differ by.
     fn copy_guide(&self, tile: Tile, frame: &Planes<'_>, to: &mut [f32]) {
         let grid = &self.layout.guide;
         let (k, channels) = (self.params.k, self.layout.channels);
@@ -334,8 +334,8 @@ impl Job<'_> {
     }
 
     fn dispatch(&self, view: &mut TileView<'_>, block: &Block) {
-        // SAFETY: the callers of `filter` refuse levels that this machine lacks; views are made by `run` in the sizes of
-        // the layout; `search` keeps offsets within the reach and rows within the tile.
+        // SAFETY: the callers of `filter` refuse levels that this machine lacks; views are made by `run` in the sizes
+        // of the layout; `search` keeps offsets within the reach and rows within the tile.
         unsafe {
             match self.level {
                 #[cfg(target_arch = "x86_64")]

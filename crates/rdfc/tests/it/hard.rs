@@ -85,7 +85,8 @@ fn frames_brighter_than_the_engine_takes_come_out_as_bright() {
         bright
     };
     for method in methods(&Params::default()) {
-        // Both take the derivative for fixed weights, as all is brighter than 1, and no constant matters beside such values.
+        // Both take the derivative for fixed weights, as all is brighter than 1, and no constant matters beside such
+        // values.
         let (a, b) = (run(&method, &bright(2.0f32.powi(20))), run(&method, &bright(2.0f32.powi(60))));
         for (a, b) in a.image.data().iter().zip(b.image.data()) {
             assert!((a * 2.0f32.powi(40) / b - 1.0).abs() < 1e-5);

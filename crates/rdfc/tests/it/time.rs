@@ -34,6 +34,10 @@ fn only_as_many_frames_count_as_are_asked_for_and_the_nearest_of_each_side() {
     assert_eq!(image(0, &frames[..2], &frames[3..]), run(&Rdfc::default(), &frames[2]).image);
     assert_eq!(image(1, &frames[..2], &frames[3..]), image(1, &frames[1..2], &frames[3..4]));
     assert_eq!(image(2, &frames[1..2], &[]), image(1, &frames[1..2], &[]));
+    // Not even their exposure.
+    let mut blinding = frames[1].clone();
+    blinding.color.mean.set(0, 3, 3, 1e13);
+    assert_eq!(image(0, &[blinding], &[]), image(0, &[], &[]));
     assert_ne!(image(1, &frames[1..2], &[]), image(0, &[], &[]));
     assert_ne!(image(2, &frames[..2], &frames[3..]), image(1, &frames[..2], &frames[3..]));
 }

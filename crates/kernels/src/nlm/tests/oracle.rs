@@ -2,8 +2,8 @@
 
 use super::*;
 
-/// Filtered values of order 1, weight sums and shares. A weight of exponent −x has a relative error of about 2x·2⁻²⁴ from the
-/// division and the sums in single precision, and what weighs anything has x below 16.
+/// Filtered values of order 1, weight sums and shares. A weight of exponent −x has a relative error of about 2x·2⁻²⁴
+/// from the division and the sums in single precision, and what weighs anything has x below 16.
 const TOLERANCE: f64 = 4e-6;
 /// Finite differences lose the two digits of δ = 1 %.
 const DERIVATIVE: f64 = 2.5e-4;
