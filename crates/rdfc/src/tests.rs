@@ -32,10 +32,8 @@ fn steps_are_a_hundredth_or_none_for_all_channels() {
     let values = [[0.5, 0.2, 1.0], [0.5, 1.5, 0.5], [0.0, 0.5, 0.5], [-0.1, 0.5, 0.5], [1e-8, 0.5, 0.5]];
     let color = Image::from_fn(5, 1, 3, |c, x, _| values[x][c]);
     let steps = steps(&color);
-    for c in 0..3 {
-        assert_eq!(steps.get(c, 0, 0), 0.01 * values[0][c]);
-        assert!((1..5).all(|x| steps.get(c, x, 0) == 0.0));
-    }
+    assert_eq!([0, 1, 2].map(|c| steps.get(c, 0, 0)), values[0].map(|v| 0.01 * v));
+    assert!((0..3).all(|c| (1..5).all(|x| steps.get(c, x, 0) == 0.0)));
 }
 
 #[test]
