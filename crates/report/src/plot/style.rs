@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use noisefloor_harness::RowFrames;
 use noisefloor_harness::summary::MethodSummary;
 
 use super::figure::{Color, Dash, Figure, Point, Stroke};
@@ -46,6 +47,8 @@ const MARKERS: [Marker; 5] =
 const DASHES: [Dash; 4] = [&[], &[7.0, 1.6], &[4.5, 1.5, 1.2, 1.5], &[1.3, 1.3]];
 /// Dash of the guarded variant of a row.
 const GUARDED: Dash = &[2.6, 1.6];
+/// Dots of a row whose method is also a row on the study's own frames, and whose frames are others.
+const OTHER_FRAMES: Dash = &[0.9, 1.4];
 
 /// Look of one row.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,8 +67,9 @@ impl Look {
     }
 }
 
-/// The look of every row: plain Monte Carlo in ink with discs, the others in their order, and a guarded row
-/// in the colour of the row that it guards, dashed and with open marks.
+/// The look of every row: plain Monte Carlo in ink with discs, the others in their order, a guarded row in the
+/// colour of the row that it guards, dashed and with open marks, and a row on frames of its own in the colour of the
+/// same method on the study's frames, dotted and with open marks.
 #[derive(Debug, Clone)]
 pub(crate) struct Looks {
     by_label: BTreeMap<String, Look>,
@@ -76,7 +80,7 @@ impl Looks {
         let mut by_label = BTreeMap::new();
         let mut next = 0;
         for method in methods.iter().filter(|m| inner(m, methods).is_none()) {
-            let look = if method.method == "mc" {
+            let look = if method.method == "mc" && method.frames == RowFrames::Uniform {
                 Look { color: INK, marker: Marker::Circle, open: false, dash: &[] }
             } else {
                 next += 1;
@@ -86,8 +90,9 @@ impl Looks {
         }
         for method in methods {
             if let Some(look) = inner(method, methods).and_then(|i| by_label.get(i).copied()) {
-                let mut guarded = Look { open: true, dash: GUARDED, ..look };
-                // Two guarded rows of one method differ in their parameters only: tell them apart by marker.
+                let dash = if method.frames == RowFrames::Uniform { GUARDED } else { OTHER_FRAMES };
+                let mut guarded = Look { open: true, dash, ..look };
+                // Two such rows of one method differ in their parameters only: tell them apart by marker.
                 for marker in MARKERS {
                     if by_label.values().any(|taken| *taken == guarded) {
                         guarded.marker = marker;
@@ -143,9 +148,15 @@ pub(crate) fn swatches(index: &Index<'_>) -> Result<String, ReportError> {
     Ok(out)
 }
 
-/// Label of the row that this one guards, if both are rows of the study: `guarded(x) more` guards `x more`, else a row
-/// of the method `x`.
+/// Label of the row that this one is a variant of, if both are rows of the study: `guarded(x) more` guards `x more`, else
+/// a row of the method `x`; a row on frames of its own belongs to the same method and parameters on the study's.
 fn inner<'a>(method: &MethodSummary, methods: &'a [MethodSummary]) -> Option<&'a str> {
+    if method.frames != RowFrames::Uniform {
+        let same = |m: &&MethodSummary| {
+            m.frames == RowFrames::Uniform && (&m.method, &m.params) == (&method.method, &method.params)
+        };
+        return methods.iter().find(same).map(|m| m.label.as_str());
+    }
     let (name, suffix) =
         method.label.strip_prefix("guarded(").and_then(|l| l.rsplit_once(')')).unwrap_or_default();
     let label = format!("{name}{suffix}");
@@ -190,6 +201,8 @@ pub(crate) fn mark(figure: &mut Figure, look: Look, (x, y): Point) {
 
 #[cfg(test)]
 mod tests {
+    use noisefloor_harness::AdaptiveFrames;
+
     use super::*;
 
     fn row(label: &str, method: &str) -> MethodSummary {
@@ -201,7 +214,7 @@ mod tests {
             reference: String::new(),
             params: serde_json::Value::Null,
             notes: vec![],
-            frames: noisefloor_harness::RowFrames::Uniform,
+            frames: RowFrames::Uniform,
             estimates_error: false,
         }
     }
@@ -217,6 +230,11 @@ mod tests {
             row("projected twice", "guarded(virtual-flash)"),
             row("virtual-flash steps=1", "virtual-flash"),
             row("guarded(virtual-flash) steps=1", "guarded(virtual-flash)"),
+            MethodSummary {
+                frames: RowFrames::Adaptive(AdaptiveFrames::default()),
+                ..row("rounds", "geometric")
+            },
+            MethodSummary { frames: RowFrames::EqualTime { with: "geometric".into() }, ..row("more", "mc") },
         ];
         let looks = Looks::of(&rows);
         assert_eq!(looks.get("mc").color, INK);
@@ -224,6 +242,8 @@ mod tests {
         assert!(looks.get("projected").open && !looks.get("virtual-flash").open);
         assert_eq!(looks.get("guarded(geometric)").color, looks.get("geometric").color);
         assert_ne!(looks.get("geometric").color, looks.get("virtual-flash").color);
+        assert_eq!(looks.get("rounds").color, looks.get("geometric").color);
+        assert_eq!((looks.get("more").color, looks.get("more").dash), (INK, OTHER_FRAMES));
         let (one, guarded_one) =
             (looks.get("virtual-flash steps=1"), looks.get("guarded(virtual-flash) steps=1"));
         assert_eq!(one.color, guarded_one.color);
