@@ -9,6 +9,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use noisefloor_benchmarks::{noise, surfaces};
 use noisefloor_kernels::Level;
 use noisefloor_kernels::flash_filter::{
     FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_into, naive,
@@ -27,17 +28,8 @@ struct Frame {
 
 impl Frame {
     fn new(width: usize, height: usize) -> Self {
-        let mut state = 1u64;
-        let mut uniform = move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 40) as f32 / (1u64 << 24) as f32
-        };
-        let mut noise = |error: f32| error * ((0..12).map(|_| uniform()).sum::<f32>() - 6.0);
-        // Patches of 40×40 pixels with brightness 0.2 to 1.
-        let mean = |i: usize, c: usize| {
-            let (x, y) = (i % width / 40, i / width / 40);
-            0.2 + 0.1 * ((x * 3 + y * 5 + c) % 9) as f32
-        };
+        let mut noise = noise();
+        let mean = |i: usize, c: usize| surfaces(c, i % width, i / width);
         let planes = [0, 1, 2];
         let n = width * height;
         let (error, flash_error) = (0.05, 0.005);

@@ -2,6 +2,8 @@
 
 mod method_frame;
 mod nlm_frame;
+mod noise;
 
 pub use method_frame::method_frame;
 pub use nlm_frame::{NlmFrame, NlmVariant, nlm_variants};
+pub use noise::{noise, surfaces};

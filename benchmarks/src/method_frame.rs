@@ -1,3 +1,4 @@
+use crate::noise::{noise, surfaces};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
 
 /// A frame for whole methods as from a renderer at 16 low-discrepancy samples: flat surfaces of 40×40 pixels with
@@ -5,18 +6,12 @@ use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Var
 /// place of depth they are 10.
 #[must_use]
 pub fn method_frame(width: usize, height: usize, position: bool) -> Frame {
-    let mut state = 1u64;
-    let mut uniform = move || {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-        (state >> 40) as f32 / (1u64 << 24) as f32
-    };
-    let mut noise = |error: f32| error * ((0..12).map(|_| uniform()).sum::<f32>() - 6.0);
-    let mean = |c: usize, x: usize, y: usize| 0.2 + 0.1 * ((x / 40 * 3 + y / 40 * 5 + c) % 9) as f32;
+    let mut noise = noise();
     let mut estimate = |channels: usize, error: f32| {
         // The error of a half is √2 times that of the mean of both.
         let mut half = || {
             Image::from_fn(width, height, channels, |c, x, y| {
-                mean(c, x, y) + noise(error * std::f32::consts::SQRT_2)
+                surfaces(c, x, y) + noise(error * std::f32::consts::SQRT_2)
             })
         };
         let halves = [half(), half()];

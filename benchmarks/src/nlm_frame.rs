@@ -1,3 +1,4 @@
+use crate::noise::{noise, surfaces};
 use noisefloor_kernels::nlm::{Channel, FeatureChannel, NlmInputs, Pass, Perturbation, Planes, Rule};
 
 /// Planes for the non-local means engine as from a renderer at 16 samples: flat surfaces of 40×40 pixels with noise,
@@ -21,16 +22,8 @@ impl NlmFrame {
     /// Fixed random numbers: the same frame on every machine.
     #[must_use]
     pub fn new(width: usize, height: usize) -> Self {
-        let mut state = 1u64;
-        let mut uniform = move || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 40) as f32 / (1u64 << 24) as f32
-        };
-        let mut noise = |error: f32| error * ((0..12).map(|_| uniform()).sum::<f32>() - 6.0);
-        let mean = |i: usize, c: usize| {
-            let (x, y) = (i % width / 40, i / width / 40);
-            0.2 + 0.1 * ((x * 3 + y * 5 + c) % 9) as f32
-        };
+        let mut noise = noise();
+        let mean = |i: usize, c: usize| surfaces(c, i % width, i / width);
         let n = width * height;
         // The error of a half is √2 times that of the mean of both.
         let (error, feature_error) = (0.05f32, 0.005f32);
