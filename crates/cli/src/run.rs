@@ -171,9 +171,16 @@ impl Observer for Watcher {
 
 /// Rows for a scene that is rendered here.
 fn scene_rows() -> Vec<MethodRow> {
-    ["mc", "virtual-flash", "geometric-corrected", "guarded(virtual-flash)", "guarded(geometric-corrected)"]
-        .map(MethodRow::new)
-        .into()
+    [
+        "mc",
+        "virtual-flash",
+        "rdfc",
+        "geometric-corrected",
+        "guarded(virtual-flash)",
+        "guarded(geometric-corrected)",
+    ]
+    .map(MethodRow::new)
+    .into()
 }
 
 /// Rows for a folder of somebody else's frames: no flash image, no material ids.
@@ -189,6 +196,7 @@ fn folder_rows() -> Vec<MethodRow> {
         color("guarded(virtual-flash)", "guarded(virtual-flash) guide=color"),
         none("virtual-flash", "virtual-flash guide=none"),
         none("guarded(virtual-flash)", "guarded(virtual-flash) guide=none"),
+        row("rdfc"),
         no_ids("geometric-corrected", "geometric-corrected ids=off"),
         no_ids("guarded(geometric-corrected)", "guarded(geometric-corrected) ids=off"),
     ]
