@@ -17,3 +17,4 @@ mod simd;
 mod tiles;
 
 pub use level::Level;
+pub use mirror::mirror;

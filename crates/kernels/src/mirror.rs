@@ -1,8 +1,9 @@
 //! Border rule of patches.
 
 /// Index of the pixel that stands for position `i` of a line of `n` pixels: mirrored at the border without
-/// repeating the edge pixel, as often as needed.
-pub(crate) fn mirror(i: isize, n: usize) -> usize {
+/// repeating the edge pixel, as often as needed. `n` is at least 1.
+#[must_use]
+pub fn mirror(i: isize, n: usize) -> usize {
     if (0..n as isize).contains(&i) {
         return i as usize;
     }

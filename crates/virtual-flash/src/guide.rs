@@ -2,10 +2,10 @@
 
 use noisefloor_frame::{Flash, Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
+use noisefloor_kernels::mirror;
 use rayon::prelude::*;
 
 use crate::flash::{self, percentile};
-use crate::mirror::mirror;
 use crate::{GuideKind, Params};
 
 /// What range weights are computed from.

@@ -5,7 +5,6 @@ mod diagnostics;
 mod flash;
 mod guide;
 mod method;
-mod mirror;
 mod params;
 mod spread;
 mod tolerance;

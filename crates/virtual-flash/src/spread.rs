@@ -4,11 +4,11 @@
 
 use noisefloor_frame::{Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
+use noisefloor_kernels::mirror;
 use rayon::prelude::*;
 
 use crate::SpreadKind;
 use crate::guide::Guide;
-use crate::mirror::mirror;
 use crate::params::Step;
 use crate::tolerance::Tolerance;
 
