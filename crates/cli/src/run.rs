@@ -44,8 +44,17 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
             print!("\n{paper}");
         }
         println!("\nreport: {}", files.index.display());
+    } else if let Some(first) = summary.findings.first() {
+        eprintln!(
+            "noisefloor: {} about the inputs; the first: {first}",
+            plural(summary.findings.len(), "finding")
+        );
     }
     fail_on_violations(&summary)
+}
+
+fn plural(count: usize, word: &str) -> String {
+    format!("{count} {word}{}", if count == 1 { "" } else { "s" })
 }
 
 /// The certain half of a proven bound is an invariant: if it broke, the run has failed whatever else it shows.

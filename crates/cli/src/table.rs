@@ -7,6 +7,9 @@ pub fn summary_table(summary: &Summary) -> String {
     let metric = &summary.study.primary_metric;
     let name = summary.study.metrics.iter().find(|m| m.id == *metric).map_or(metric.as_str(), |m| &m.name);
     let mut out = String::new();
+    for finding in &summary.findings {
+        out.push_str(&format!("! {finding}\n"));
+    }
     for warning in &summary.warnings {
         out.push_str(&format!("! {warning}\n"));
     }

@@ -14,6 +14,7 @@
 mod error;
 mod estimate;
 mod feature;
+mod finding;
 mod frame;
 mod image;
 mod provenance;
@@ -24,6 +25,7 @@ mod samples;
 pub use error::FrameError;
 pub use estimate::{Estimate, Variance};
 pub use feature::FeatureId;
+pub use finding::{Finding, FindingKind, Severity, sorted_findings};
 pub use frame::{Flash, Frame, Hygiene, Sampling};
 pub use image::{Image, luminance};
 pub use provenance::{Camera, PixelFilter, Provenance};

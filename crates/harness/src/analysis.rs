@@ -18,6 +18,8 @@ mod warnings;
 
 use std::path::Path;
 
+use noisefloor_frame::{Finding, sorted_findings};
+
 use crate::context::Context;
 use crate::machine;
 use crate::record::Record;
@@ -47,11 +49,18 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
         estimates: estimates::estimates(&index),
         equal_time: equal_time::equal_time(&index),
         flicker: flicker::flicker(&index, &sequences.measured),
+        findings: findings(context, records),
         warnings: Vec::new(),
     };
     summary.warnings = warnings::warnings(&index, &summary);
     summary.warnings.extend(sequences.problems);
     summary
+}
+
+/// What was found about scenes and frames, once each.
+fn findings(context: &Context, records: &[Record]) -> Vec<Finding> {
+    let of_scenes = context.scenes.iter().flat_map(|scene| &scene.findings);
+    sorted_findings(of_scenes.chain(records.iter().flat_map(|record| &record.findings)).cloned())
 }
 
 fn info(study: &Study, context: &Context, index: &Index<'_>) -> StudyInfo {

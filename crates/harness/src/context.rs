@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_frame::Sampling;
+use noisefloor_frame::{Finding, Sampling};
 use serde::{Deserialize, Serialize};
 
 use crate::cache::Key;
@@ -41,6 +41,9 @@ pub(crate) struct SceneContext {
     /// Pixel classes in the order of the class image's indices, with their pixel counts.
     pub(crate) classes: Vec<(String, u64)>,
     pub(crate) reference: ReferenceContext,
+    /// What was found about the scene's files or reference, apart from single frames.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) findings: Vec<Finding>,
 }
 
 /// A reference as it was used.

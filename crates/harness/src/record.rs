@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use noisefloor_denoiser::StageSeconds;
-use noisefloor_frame::Sampling;
+use noisefloor_frame::{Finding, Sampling};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -97,6 +97,9 @@ pub struct Record {
     /// Pixels replaced or counted as non-finite in the input and output.
     #[serde(default)]
     pub non_finite: NonFinite,
+    /// What was found about the cell's input frame; the same for all rows of a frame.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub findings: Vec<Finding>,
     /// Named numbers from the method, such as the flash intensity.
     #[serde(default)]
     pub figures: BTreeMap<String, f64>,

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use noisefloor_frame::Finding;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -80,6 +81,9 @@ pub struct Summary {
     /// Errors that change from frame to frame, per sequence × spp × row.
     #[serde(default)]
     pub flicker: Vec<FlickerSummary>,
+    /// What was found about the inputs, most serious first.
+    #[serde(default)]
+    pub findings: Vec<Finding>,
     /// Statements that a reader must see first: marked cells, violated enclosures, short references.
     pub warnings: Vec<String>,
 }

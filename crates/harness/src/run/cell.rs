@@ -123,6 +123,7 @@ impl Runner<'_> {
             enclosures: Vec::new(),
             error_estimate: None,
             non_finite: NonFinite::default(),
+            findings: Vec::new(),
             figures: BTreeMap::new(),
             seconds: Seconds { threads: rayon::current_num_threads() as u32, ..Seconds::default() },
             peak_memory_bytes: None,

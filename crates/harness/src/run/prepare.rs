@@ -74,6 +74,7 @@ pub(super) fn truth(
             floor: measurer.floor(),
             bias: measurer.bias(),
         },
+        findings: Vec::new(),
     };
     // The parts stay in the cache: mean, variance and halves are what metrics are computed from.
     reference.parts.clear();

@@ -138,7 +138,8 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
 
 /// The study's own warnings, and those that the numbers of the summary add.
 fn warnings(summary: &Summary) -> Vec<String> {
-    let mut warnings = merged(&summary.warnings);
+    let found = summary.findings.iter().map(ToString::to_string);
+    let mut warnings = merged(&found.chain(summary.warnings.iter().cloned()).collect::<Vec<_>>());
     let environment = &summary.environment;
     if environment.profile == "debug" {
         warnings.push("Times were taken with a debug build and say nothing about speed.".into());
