@@ -67,6 +67,7 @@ fn measure_again<'a>(
         let image = read_color(dir.join(relative))?;
         let measured = measurer.measure(&image).map_err(wrong)?;
         record.metrics = measured.values;
+        (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
         record.classes = measured.classes;
         record.non_finite.output_values = measured.non_finite_values;
         if record.metrics_reference_se.is_empty() {

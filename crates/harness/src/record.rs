@@ -79,6 +79,12 @@ pub struct Record {
     /// only when the study has one replicate.
     #[serde(default)]
     pub ratio_within_se: BTreeMap<String, f64>,
+    /// Pixels that the metrics are over: those where input, output and reference are finite. 0 in records that do not say.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub pixels: u64,
+    /// Pixels of the whole image. 0 in records that do not say.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub pixels_of: u64,
     /// Pixel class to metric id to value.
     #[serde(default)]
     pub classes: BTreeMap<String, BTreeMap<String, Option<f64>>>,
@@ -113,6 +119,11 @@ pub struct Record {
     /// Diagnostic images, name to path relative to the study's folder.
     #[serde(default)]
     pub diagnostics: BTreeMap<String, String>,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref)] // what serde asks for
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// A frame whose samples were placed in rounds, where its row's method asked for them. They depend on what was seen,

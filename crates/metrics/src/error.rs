@@ -26,6 +26,18 @@ pub enum MetricError {
         /// Names given.
         names: usize,
     },
+    /// Nothing of the reference can stand for the truth.
+    #[error("no common pixel: none of the reference's {pixels} pixels is finite in its mean, variance, halves and parts")]
+    NoReferencePixel {
+        /// Pixels of the reference.
+        pixels: usize,
+    },
+    /// Image and reference have no pixel in which both are finite.
+    #[error("no common pixel: none of {pixels} pixels is finite in both image and reference")]
+    NoCommonPixel {
+        /// Pixels of the image.
+        pixels: usize,
+    },
     /// No metric of this id.
     #[error("unknown metric `{id}`; known: {known}")]
     Unknown {

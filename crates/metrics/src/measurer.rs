@@ -32,8 +32,10 @@ pub struct Measured {
     pub reference_se: BTreeMap<String, f64>,
     /// Values of the image that are NaN or infinite.
     pub non_finite_values: usize,
-    /// Pixels that took part.
+    /// Pixels that took part: those where image and reference are finite. At least 1.
     pub pixels: usize,
+    /// Pixels of the whole image: every number is over `pixels` of `pixels_of`.
+    pub pixels_of: usize,
 }
 
 /// Compares images with one reference.
@@ -59,7 +61,8 @@ impl<'a> Measurer<'a> {
     ///
     /// # Errors
     /// [`MetricError::Shape`] if the reference is inconsistent or has not 3 channels, [`MetricError::ClassMap`] or
-    /// [`MetricError::ClassIndex`] if the class map does not fit.
+    /// [`MetricError::ClassIndex`] if the class map does not fit, [`MetricError::NoReferencePixel`] if no pixel of the
+    /// reference is finite.
     pub fn new(reference: &'a Reference, classes: Option<Classes<'a>>) -> Result<Self, MetricError> {
         reference.frame.check()?;
         let mean = reference.mean();
@@ -71,6 +74,9 @@ impl<'a> Measurer<'a> {
             check_classes(classes, w * h)?;
         }
         let valid = finite_pixels(reference);
+        if !valid.contains(&true) {
+            return Err(MetricError::NoReferencePixel { pixels: w * h });
+        }
         let weight = mean
             .data()
             .iter()
@@ -135,10 +141,15 @@ impl<'a> Measurer<'a> {
     /// Computes all metrics.
     ///
     /// # Errors
-    /// [`MetricError::Shape`] if the image has not the shape of the reference.
+    /// [`MetricError::Shape`] if the image has not the shape of the reference, [`MetricError::NoCommonPixel`] if no pixel is
+    /// finite in both.
     pub fn measure(&self, test: &Image) -> Result<Measured, MetricError> {
         let errors = self.pixel_errors(test)?;
         let all = (0..test.pixels()).filter(|&p| errors.valid[p]);
+        let pixels = all.clone().count();
+        if pixels == 0 {
+            return Err(MetricError::NoCommonPixel { pixels: test.pixels() });
+        }
         let values = aggregate(&errors, all.clone());
         let mut classes = BTreeMap::new();
         if let Some(map) = &self.classes {
@@ -156,7 +167,8 @@ impl<'a> Measurer<'a> {
             values,
             classes,
             non_finite_values: errors.non_finite_values,
-            pixels: all.count(),
+            pixels,
+            pixels_of: test.pixels(),
         })
     }
 

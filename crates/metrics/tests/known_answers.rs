@@ -135,13 +135,30 @@ fn non_finite_pixels_are_counted_and_left_out() {
     test.set(2, 4, 4, f32::INFINITY);
     test.set(0, 9, 9, f32::NEG_INFINITY);
     let measured = measure(&test, truth.clone());
-    assert_eq!((measured.non_finite_values, measured.pixels), (3, 598));
+    assert_eq!((measured.non_finite_values, measured.pixels, measured.pixels_of), (3, 598, 600));
     let clean = measure(&Image::filled(30, 20, 3, 0.75), truth.clone());
     for m in METRICS {
         assert!((measured.values[m.id].unwrap() - clean.values[m.id].unwrap()).abs() < 1e-9, "{}", m.id);
     }
-    let none = measure(&Image::filled(30, 20, 3, f32::NAN), truth);
-    assert!(none.values.values().all(Option::is_none));
+}
+
+#[test]
+fn without_a_common_pixel_there_is_no_measure() {
+    let (truth, nan) = (Image::filled(30, 20, 3, 0.5), Image::filled(30, 20, 3, f32::NAN));
+    let exact = Reference::exact(truth.clone());
+    let measurer = Measurer::new(&exact, None).unwrap();
+    assert_eq!(measurer.measure(&nan).unwrap_err(), MetricError::NoCommonPixel { pixels: 600 });
+    let error = Measurer::new(&Reference::exact(nan.clone()), None).unwrap_err();
+    assert_eq!(error, MetricError::NoReferencePixel { pixels: 600 });
+    assert!(error.to_string().contains("no common pixel"), "{error}");
+    // Each has a finite half, and not the same one.
+    let half = |left: bool| {
+        Image::from_fn(30, 20, 3, |_, x, _| if (x < 15) == left { 0.5 } else { f32::NAN })
+    };
+    let reference = Reference::exact(half(true));
+    let measurer = Measurer::new(&reference, None).unwrap();
+    assert!(matches!(measurer.measure(&half(false)), Err(MetricError::NoCommonPixel { .. })));
+    assert_eq!(measurer.measure(&half(true)).unwrap().pixels, 300);
 }
 
 #[test]

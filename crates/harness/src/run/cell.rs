@@ -5,7 +5,7 @@ use std::path::Path;
 
 use noisefloor_denoiser::{Input, Output};
 use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling};
-use noisefloor_metrics::{Measurer, block_bootstrap};
+use noisefloor_metrics::{Measurer, MetricError, block_bootstrap};
 
 use crate::cache::{Cache, Key};
 use crate::context::SceneContext;
@@ -117,6 +117,8 @@ impl Runner<'_> {
             metrics_reference_se: BTreeMap::new(),
             metrics_within_se: BTreeMap::new(),
             ratio_within_se: BTreeMap::new(),
+            pixels: 0,
+            pixels_of: 0,
             classes: BTreeMap::new(),
             coverage: Vec::new(),
             bounds: Vec::new(),
@@ -219,9 +221,17 @@ impl Cell<'_> {
         record.seconds.stages = done.stages;
         let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
         let Output { image, error_estimate, figures, .. } = done.output;
-        let measured = self.measurer.measure(&image).map_err(metric)?;
+        let measured = match self.measurer.measure(&image) {
+            // An output without a number in it is the method's failure, not the study's.
+            Err(error @ MetricError::NoCommonPixel { .. }) => {
+                record.outcome = Outcome::Failed { reason: error.to_string() };
+                return Ok(());
+            }
+            measured => measured.map_err(metric)?,
+        };
         record.non_finite.output_values = measured.non_finite_values;
         record.metrics = measured.values;
+        (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
         record.classes = measured.classes;
         record.metrics_reference_se = measured.reference_se;
         if scene.single() {
