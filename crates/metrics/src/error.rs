@@ -27,7 +27,9 @@ pub enum MetricError {
         names: usize,
     },
     /// Nothing of the reference can stand for the truth.
-    #[error("no common pixel: none of the reference's {pixels} pixels is finite in its mean, variance, halves and parts")]
+    #[error(
+        "no common pixel: none of the reference's {pixels} pixels is finite in its mean, variance, halves and parts"
+    )]
     NoReferencePixel {
         /// Pixels of the reference.
         pixels: usize,

@@ -152,9 +152,8 @@ fn without_a_common_pixel_there_is_no_measure() {
     assert_eq!(error, MetricError::NoReferencePixel { pixels: 600 });
     assert!(error.to_string().contains("no common pixel"), "{error}");
     // Each has a finite half, and not the same one.
-    let half = |left: bool| {
-        Image::from_fn(30, 20, 3, |_, x, _| if (x < 15) == left { 0.5 } else { f32::NAN })
-    };
+    let half =
+        |left: bool| Image::from_fn(30, 20, 3, |_, x, _| if (x < 15) == left { 0.5 } else { f32::NAN });
     let reference = Reference::exact(half(true));
     let measurer = Measurer::new(&reference, None).unwrap();
     assert!(matches!(measurer.measure(&half(false)), Err(MetricError::NoCommonPixel { .. })));
