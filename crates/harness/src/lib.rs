@@ -30,7 +30,7 @@ pub mod summary;
 pub use analysis::violations;
 pub use error::{HarnessError, Place};
 pub use observer::{Observer, Silent, Stage, Workload};
-pub use reanalyse::reanalyse;
+pub use reanalyse::{reanalyse, reanalyse_into};
 pub use run::{StudyRun, run};
 pub use study::{
     AdaptiveFrames, BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio,

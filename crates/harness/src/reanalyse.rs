@@ -15,7 +15,7 @@ use crate::study::Study;
 use crate::summary::Summary;
 
 /// Makes the analysis of a study's folder again and writes `summary.json`. Nothing is rendered or denoised; a study
-/// that was stopped is analysed as far as it went.
+/// that was stopped, or is running, is analysed as far as it went.
 ///
 /// `recompute` computes the metrics again from the kept images and references, as after a change of their definitions,
 /// and replaces them in the records. Coverage, bounds, estimates of a method's own error and times stay as they were
@@ -23,12 +23,25 @@ use crate::summary::Summary;
 ///
 /// # Errors
 /// [`HarnessError::Io`] or [`HarnessError::Kept`] if the folder is none of a study or a file of it is damaged,
-/// [`HarnessError::Image`] for an image that cannot be read, [`HarnessError::Locked`] while the study is running.
+/// [`HarnessError::Image`] for an image that cannot be read, [`HarnessError::Locked`] if records are to be replaced while
+/// the study is running.
 pub fn reanalyse(dir: &Path, recompute: bool) -> Result<Summary, HarnessError> {
+    reanalyse_into(dir, dir, recompute)
+}
+
+/// Like [`reanalyse`], with `summary.json` written into the folder `out`, which is made if need be. Of the study's folder
+/// nothing is changed unless `out` is that very folder: numbers that are computed again are then in the summary alone.
+///
+/// # Errors
+/// As [`reanalyse`]; [`HarnessError::Io`] also if `out` cannot be made or written.
+pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary, HarnessError> {
     let layout = Layout::new(dir);
     // First of all, so that a folder that is none of ours stays as it is.
     let study: Study = read_json(&layout.study())?;
-    let _lock = Lock::take(&layout)?;
+    std::fs::create_dir_all(out).map_err(HarnessError::io("make folder", out))?;
+    let here = same_folder(dir, out);
+    // Records only ever grow, line by line: reading them needs no lock.
+    let _lock = (here && recompute).then(|| Lock::take(&layout)).transpose()?;
     let mut context: Context = read_json(&layout.context())?;
     for scene in &study.scenes {
         let path = dir.join(Layout::scene(&scene.id));
@@ -36,17 +49,26 @@ pub fn reanalyse(dir: &Path, recompute: bool) -> Result<Summary, HarnessError> {
             context.scenes.push(read_json(&path)?);
         }
     }
-    let mut records = Records::open(&layout.records())?;
+    let mut all = Records::read(&layout.records())?.records;
     if recompute {
-        let mut all = records.all().to_vec();
         for scene in &context.scenes {
             measure_again(dir, scene, all.iter_mut().filter(|record| record.scene == scene.id))?;
         }
-        records.replace(all)?;
+        if here {
+            Records::open(&layout.records())?.replace(all.clone())?;
+        }
     }
-    let summary = analyse(&study, &context, records.all(), dir);
-    write_json(&layout.summary(), &summary)?;
+    let summary = analyse(&study, &context, &all, dir);
+    write_json(&Layout::new(out).summary(), &summary)?;
     Ok(summary)
+}
+
+/// Whether two paths lead to one folder; links are followed.
+fn same_folder(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
 }
 
 fn measure_again<'a>(
