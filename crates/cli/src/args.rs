@@ -5,6 +5,8 @@ use std::str::FromStr;
 
 use clap::{Parser, Subcommand};
 
+use crate::exit;
+
 /// Evaluation workbench for Monte Carlo denoisers.
 #[derive(Debug, Parser)]
 #[command(
@@ -14,10 +16,11 @@ use clap::{Parser, Subcommand};
     long_about = "Renders or imports noisy frames with their statistics, runs denoisers on them, and reports error \
         against samples, error against seconds, coverage of confidence intervals, and whether error bounds held.\n\n\
         Without a verb it runs the built-in study `quick`.",
-    after_help = "Examples:\n  noisefloor                          run the study `quick` (a few minutes)\n  \
+    after_help = format!("Examples:\n  noisefloor                          run the study `quick` (a few minutes)\n  \
         noisefloor run vfi-fig09            reproduce a figure\n  \
         noisefloor run study.toml           run your own study\n  \
-        noisefloor methods                  what can be compared"
+        noisefloor methods                  what can be compared\n  \
+        noisefloor convert out.exr out.png  look at a picture\n\n{}", exit::help())
 )]
 pub struct Args {
     /// What to do.
@@ -34,11 +37,13 @@ pub enum Verb {
     Render(Render),
     /// Denoise one frame
     Denoise(Denoise),
-    /// Measure an image against a reference
+    /// Measure images against a reference
     Compare(Compare),
+    /// Make a picture to look at: OpenEXR to PNG
+    Convert(Convert),
     /// Make the analysis and the report again from kept records and images, running nothing
     Report(Report),
-    /// List the denoising methods with their parameters
+    /// List the denoising methods with their parameters, or show one with its page
     Methods(List),
     /// List the built-in scenes with what they model
     Scenes(Scenes),
@@ -76,9 +81,9 @@ pub struct Run {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
     /// Which photon maps replicates get (scenes only): `fixed`, one pair for all and for the reference, or `fresh`, a
-    /// new pair for each and a path-traced reference
-    #[arg(long, default_value = "fixed", value_parser = ["fixed", "fresh"])]
-    pub maps: String,
+    /// new pair for each and a path-traced reference [default: fixed]
+    #[arg(long, value_parser = ["fixed", "fresh"])]
+    pub maps: Option<String>,
     #[command(flatten)]
     pub shot: Shot,
     /// Samples per pixel of frames that do not say it themselves (folders only)
@@ -98,7 +103,8 @@ pub struct Run {
     noisefloor render cornell --spp 64 --feature-hit through-specular -o behind-the-mirror.exr\n  \
     noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr\n  \
     noisefloor render rings --spp 64 --integrator photon-mapping -o caustics.exr\n  \
-    noisefloor render cornell --spp 64 --orbit 2 --frames 5 -o turn.exr     turn.0000.exr to turn.0004.exr"
+    noisefloor render cornell --spp 64 --orbit 2 --frames 5 -o turn.exr     turn.0000.exr to turn.0004.exr\n  \
+    noisefloor render toaster --spp 64 --exposure 1 -o toaster.png          a picture to look at"
 )]
 pub struct Render {
     /// Scene id, see `noisefloor scenes`; or a glTF file, .gltf or .glb
@@ -112,9 +118,13 @@ pub struct Render {
     /// Image size in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240")]
     pub size: Size,
-    /// OpenEXR file to write
+    /// File to write: OpenEXR with all statistics (.exr, a device, a pipe, or - for standard output), or a picture of
+    /// the colour (.png)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// Exposure of a .png in stops, before the sRGB curve [default: 0]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = stops)]
+    pub exposure: Option<f32>,
     /// Quantities to record beside the colour, by comma; `none` for the colour alone [default: everything that
     /// registered methods can use and the scene can give]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
@@ -148,9 +158,9 @@ pub struct Render {
     /// files like STEM.0007.exr
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub frames: u32,
-    /// Random seed of the photon maps; another one gives other maps
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub map_seed: u64,
+    /// Random seed of the photon maps; another one gives other maps [default: 0]
+    #[arg(long, value_name = "S")]
+    pub map_seed: Option<u64>,
     /// Threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
@@ -163,15 +173,16 @@ pub struct Render {
 #[derive(Debug, Clone, Default, clap::Args)]
 pub struct Shot {
     /// Frame of the sequence: what moves in the scene, and the camera with --orbit, is further on by this many frames
-    #[arg(long, value_name = "K", default_value_t = 0)]
-    pub frame: u32,
-    /// Degrees per frame by which the camera goes around what it looks at
-    #[arg(long, value_name = "DEGREES", default_value_t = 0.0, allow_negative_numbers = true)]
-    pub orbit: f32,
+    /// [default: 0]
+    #[arg(long, value_name = "K")]
+    pub frame: Option<u32>,
+    /// Degrees per frame by which the camera goes around what it looks at [default: 0]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true)]
+    pub orbit: Option<f32>,
     /// How light is carried: `path-tracing`, or `photon-mapping` with a caustic map and a global map that is gathered
-    /// from
-    #[arg(long, default_value = "path-tracing", value_parser = ["path-tracing", "photon-mapping"])]
-    pub integrator: String,
+    /// from [default: path-tracing]
+    #[arg(long, value_parser = ["path-tracing", "photon-mapping"])]
+    pub integrator: Option<String>,
     /// Make photon maps of this many light paths [default with photon-mapping: 200000]; with path tracing they serve the
     /// feature `caustics`
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 26))]
@@ -179,9 +190,9 @@ pub struct Shot {
     /// Light paths for the caustic map [default: five times --photons]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 26), requires = "photons")]
     pub caustic_photons: Option<u32>,
-    /// Factor on the radii of looks at the photon maps
-    #[arg(long, value_name = "F", default_value_t = 1.0)]
-    pub photon_radius: f32,
+    /// Factor on the radii of looks at the photon maps [default: 1]
+    #[arg(long, value_name = "F")]
+    pub photon_radius: Option<f32>,
 }
 
 /// `noisefloor denoise`.
@@ -189,7 +200,9 @@ pub struct Shot {
 #[command(after_help = "Examples:\n  noisefloor denoise frame.exr --method virtual-flash -o out.exr\n  \
     noisefloor denoise frame.exr --method virtual-flash --set guide=color --set steps=1 -o out.exr --json\n  \
     noisefloor denoise frame.exr --method \"guarded(geometric-corrected)\" -o out.exr\n  \
-    noisefloor denoise frame.exr --method virtual-flash --diagnostics --probe 120,80 -o out.exr")]
+    noisefloor denoise frame.exr --method virtual-flash --diagnostics --probe 120,80 -o out.exr\n  \
+    noisefloor denoise frame.exr --method rdfc --exposure 1.5 -o out.png     a picture to look at\n  \
+    noisefloor denoise frame.exr --method rdfc -o - > out.exr                messages go to standard error")]
 pub struct Denoise {
     /// Noisy frame
     pub frame: PathBuf,
@@ -199,9 +212,12 @@ pub struct Denoise {
     /// Override a parameter; repeatable
     #[arg(long = "set", value_name = "NAME=VALUE")]
     pub set: Vec<String>,
-    /// OpenEXR file to write
+    /// File to write: OpenEXR (.exr, a device, a pipe, or - for standard output), or a picture (.png)
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
+    /// Exposure of a .png in stops, before the sRGB curve [default: 0]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = stops)]
+    pub exposure: Option<f32>,
     /// Also write the method's diagnostic images, as OUTPUT-STEM.NAME.exr
     #[arg(long)]
     pub diagnostics: bool,
@@ -222,15 +238,41 @@ pub struct Denoise {
 /// `noisefloor compare`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  noisefloor compare out.exr reference.exr\n  \
+    noisefloor compare noisy.exr one.exr two.exr reference.exr    several images beside each other\n  \
+    noisefloor compare out.exr reference.exr --maps maps          where the error is, as maps/out.error.png\n  \
     noisefloor compare out.exr reference.exr --json")]
 pub struct Compare {
-    /// Image or frame under test
-    pub test: PathBuf,
+    /// Images or frames under test
+    #[arg(required = true, value_name = "IMAGE")]
+    pub images: Vec<PathBuf>,
     /// Reference; its own noise is taken out where it carries halves or a variance
     pub reference: PathBuf,
-    /// Print one JSON object instead of text
+    /// Write maps of the relative error into this folder, as IMAGE-STEM.error.png: viridis, one range for all images
+    #[arg(long, value_name = "DIR")]
+    pub maps: Option<PathBuf>,
+    /// Relative error at the bright end of the maps [default: the 99th percentile over all images]
+    #[arg(long, value_name = "ERROR", requires = "maps", value_parser = positive)]
+    pub map_range: Option<f32>,
+    /// Print one JSON object instead of text; for several images an array of them
     #[arg(long)]
     pub json: bool,
+}
+
+/// `noisefloor convert`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor convert out.exr out.png\n  \
+    noisefloor convert out.exr out.png --exposure 2.5    2.5 stops brighter\n  \
+    noisefloor convert frame.exr color.exr               the colour of a frame alone\n\n\
+    A picture is the colour times 2^STOPS, clamped to 0 … 1, through the sRGB curve, 8 bits; pixels that are not finite \
+    are magenta and counted.")]
+pub struct Convert {
+    /// OpenEXR image or frame
+    pub input: PathBuf,
+    /// File to write: a picture (.png), or OpenEXR of the colour alone (.exr, or - for standard output)
+    pub output: PathBuf,
+    /// Exposure of a .png in stops, before the sRGB curve [default: 0]
+    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = stops)]
+    pub exposure: Option<f32>,
 }
 
 /// `noisefloor report`.
@@ -250,9 +292,14 @@ pub struct Report {
 
 /// `noisefloor methods`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  noisefloor methods\n  noisefloor methods --json")]
+#[command(
+    after_help = "Examples:\n  noisefloor methods\n  noisefloor methods rdfc      one method with its page\n  \
+    noisefloor methods --json"
+)]
 pub struct List {
-    /// Print a JSON array of objects with `id`
+    /// One method: everything about it, with its page
+    pub id: Option<String>,
+    /// Print a JSON array of objects with `id`, or one object for one method
     #[arg(long)]
     pub json: bool,
 }
@@ -284,6 +331,18 @@ pub struct Scenes {
     /// No progress
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// An exposure in stops.
+fn stops(text: &str) -> Result<f32, String> {
+    let value = text.parse().ok().filter(|v: &f32| (-64.0..=64.0).contains(v));
+    value.ok_or_else(|| format!("`{text}` is not a number of stops from -64 to 64"))
+}
+
+/// A finite number above zero.
+fn positive(text: &str) -> Result<f32, String> {
+    let value = text.parse().ok().filter(|v: &f32| v.is_finite() && *v > 0.0);
+    value.ok_or_else(|| format!("`{text}` is not a finite number above 0"))
 }
 
 /// `WxH` in pixels.
@@ -357,5 +416,10 @@ mod tests {
         }
         assert_eq!("3,4".parse(), Ok(Pixel { x: 3, y: 4 }));
         assert!("3;4".parse::<Pixel>().is_err());
+        assert_eq!((stops("-2.5"), positive("0.5")), (Ok(-2.5), Ok(0.5)));
+        for bad in ["nan", "65", "inf", "a"] {
+            assert!(stops(bad).unwrap_err().contains(bad));
+        }
+        assert!(["0", "-1", "nan", "inf"].iter().all(|bad| positive(bad).is_err()));
     }
 }

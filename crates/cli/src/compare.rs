@@ -1,69 +1,76 @@
 //! `noisefloor compare`.
+//!
+//! Every image is measured against one reference; [`findings`] says what about the files limits the numbers, [`maps`]
+//! draws where the error is, and [`text`] and [`json`] show all of it.
+
+mod findings;
+mod json;
+mod maps;
+mod text;
+
+use std::path::Path;
 
 use anyhow::bail;
+use noisefloor_frame::{Finding, Image};
 use noisefloor_io::{ReadOptions, read_color, read_reference};
-use noisefloor_metrics::{METRICS, Measurer};
-use serde_json::{Map, Value, json};
+use noisefloor_metrics::{Measured, Measurer, trimmed_count};
 
 use crate::args::Compare;
-use crate::table::{aligned, number};
+use crate::exit::Exit;
+use crate::out::{Out, say};
 
-pub fn run(args: &Compare) -> anyhow::Result<()> {
-    let test = read_color(&args.test)?;
-    // The sample count of a reference plays no part here, so a file without one is fine.
-    let reference = read_reference(&args.reference, &ReadOptions { spp: Some(1) })?;
-    let mean = reference.mean();
-    if !test.same_shape(mean) {
-        bail!(
-            "{} is {}×{} but {} is {}×{}",
-            args.test.display(),
-            test.width(),
-            test.height(),
-            args.reference.display(),
-            mean.width(),
-            mean.height()
-        );
-    }
-    let measurer = Measurer::new(&reference, None)?;
-    let measured = measurer.measure(&test)?;
-    if args.json {
-        let values: Map<String, Value> = METRICS
-            .iter()
-            .map(|m| (m.id.to_owned(), measured.values.get(m.id).copied().flatten().into()))
-            .collect();
-        let object = json!({
-            "test": args.test,
-            "reference": args.reference,
-            "metrics": values,
-            "reference_standard_error": measured.reference_se,
-            "reference_noise": measurer.correction(),
-            "non_finite_values": measured.non_finite_values,
-        });
-        println!("{}", serde_json::to_string_pretty(&object)?);
-        return Ok(());
-    }
-    println!("reference noise: {}", measurer.correction());
-    let mut rows = vec![vec!["metric".into(), "value".into(), "± reference".into(), "better".into()]];
-    for metric in METRICS {
-        let value = measured.values.get(metric.id).copied().flatten();
-        rows.push(vec![
-            metric.id.into(),
-            value.map_or("not finite".into(), |v| format!("{}{}", number(v), suffix(metric.unit))),
-            measured.reference_se.get(metric.id).map_or("".into(), |se| number(*se)),
-            if metric.lower_is_better { "lower".into() } else { "higher".into() },
-        ]);
-    }
-    print!("{}", aligned(&rows));
-    if measured.non_finite_values > 0 {
-        println!(
-            "{} values of {} are not finite; their pixels are left out",
-            measured.non_finite_values,
-            args.test.display()
-        );
-    }
-    Ok(())
+/// One image and what came out.
+struct Compared<'a> {
+    path: &'a Path,
+    image: Image,
+    measured: Measured,
+    findings: Vec<Finding>,
+    map: Option<maps::Map>,
 }
 
-fn suffix(unit: &str) -> String {
-    if unit.is_empty() { String::new() } else { format!(" {unit}") }
+impl Compared<'_> {
+    /// Pixels that a metric averages.
+    fn pixels(&self, metric: &str) -> usize {
+        let dropped = if metric == "relmse_trimmed" { trimmed_count(self.measured.pixels) } else { 0 };
+        self.measured.pixels - dropped
+    }
+}
+
+pub fn run(args: &Compare) -> anyhow::Result<Exit> {
+    let plan = maps::plan(args)?;
+    // The sample count of a reference plays no part here, so a file without one is fine.
+    let reference = read_reference(&args.reference, &ReadOptions { spp: Some(1) })?;
+    let measurer = Measurer::new(&reference, None)?;
+    let mean = reference.mean();
+    let mut all = Vec::new();
+    for path in &args.images {
+        let image = read_color(path)?;
+        if !image.same_shape(mean) {
+            bail!(
+                "{} is {}×{} but {} is {}×{}",
+                path.display(),
+                image.width(),
+                image.height(),
+                args.reference.display(),
+                mean.width(),
+                mean.height()
+            );
+        }
+        let measured = measurer.measure(&image)?;
+        if measured.pixels == 0 {
+            let (test, reference) = (path.display(), args.reference.display());
+            bail!("{test} and {reference} have no pixel that is finite in both");
+        }
+        let findings = findings::of_pair(path, &measured);
+        all.push(Compared { path, image, measured, findings, map: None });
+    }
+    if let Some(plan) = &plan {
+        maps::write(plan, &reference, args.map_range, &mut all)?;
+    }
+    if args.json {
+        say!(Out::Stdout, "{}", serde_json::to_string_pretty(&json::describe(args, &measurer, &all))?)?;
+    } else {
+        Out::Stdout.text(text::describe(&measurer, &all))?;
+    }
+    Ok(Exit::Done)
 }

@@ -1,20 +1,31 @@
 //! `noisefloor denoise`.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use noisefloor_denoiser::{Diagnostics, Input, Output};
-use noisefloor_frame::Image;
-use noisefloor_io::{ReadOptions, read_frame, write_image};
+use noisefloor_denoiser::{Diagnostics, Input};
+use noisefloor_io::{ReadOptions, read_frame, read_info, same_file, write_image};
 use serde_json::{Map, Value, json};
 
 use crate::args::Denoise;
 use crate::context::{Context, measured_peak_memory, use_threads};
+use crate::exit::{Exit, usage};
+use crate::out::{Out, say};
+use crate::output::Output;
 
-pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<()> {
+pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
+    let output = Output::new(&args.output, args.exposure)?;
+    output.spare([args.frame.as_path()])?;
+    if args.diagnostics {
+        output.need_file("--diagnostics")?;
+        spare_from_diagnostics(&args.output, &args.frame)?;
+    }
+    if let Some(spp) = args.spp {
+        check_spp(&args.frame, spp)?;
+    }
     let overrides = overrides(&args.set)?;
     let method = context.registry.build(&args.method, &overrides)?;
     let mut frame = read_frame(&args.frame, &ReadOptions { spp: args.spp })?;
@@ -28,64 +39,83 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<()> {
     let hygiene = frame.sanitize();
     let input = Input::new(&frame);
     let start = Instant::now();
-    let output = method.denoiser.denoise(&input)?;
+    let made = method.denoiser.denoise(&input)?;
     let seconds = start.elapsed().as_secs_f64();
     let peak = measured_peak_memory();
 
-    write_image(&args.output, &output.image, &attributes(args, &method.params))?;
+    let main = output.image(&made.image, &attributes(args, &method.params))?;
     let mut written = Vec::new();
     if args.diagnostics {
         let probe = args.probe.map(|p| (p.x, p.y));
         let with = method.denoiser.denoise(&input.with_diagnostics(Diagnostics::On { probe }))?;
-        for (name, image) in &with.diagnostics {
-            written.push((name.clone(), write_diagnostic(&args.output, name, image)?));
+        let titles: Vec<&str> = with.diagnostics.iter().map(|(name, _)| name.as_str()).collect();
+        let paths = diagnostic_paths(&args.output, &titles);
+        for ((name, image), path) in with.diagnostics.iter().zip(paths) {
+            write_image(&path, image, &BTreeMap::from([("diagnostic".to_owned(), name.clone())]))?;
+            written.push((name.clone(), path));
         }
     }
 
+    let out = output.messages();
     if args.json {
         let stages: Map<String, Value> =
-            output.stages.iter().map(|s| (s.name.clone(), s.seconds.into())).collect();
+            made.stages.iter().map(|s| (s.name.clone(), s.seconds.into())).collect();
         let object = json!({
             "method": method.id,
             "params": method.params,
-            "output": args.output,
+            "output": output.path(),
             "seconds": {"denoise": seconds, "stages": stages},
             "threads": rayon::current_num_threads(),
             "peak_memory_bytes": peak,
             "diagnostics": written.iter().map(|(name, path)| json!({"name": name, "path": path})).collect::<Vec<_>>(),
-            "figures": output.figures.iter().cloned().collect::<BTreeMap<_, _>>(),
+            "figures": made.figures.iter().cloned().collect::<BTreeMap<_, _>>(),
             "input": hygiene,
-            "non_finite_output": output.image.count_non_finite(),
+            "non_finite_output": made.image.count_non_finite(),
         });
-        println!("{}", serde_json::to_string_pretty(&object)?);
+        say!(out, "{}", serde_json::to_string_pretty(&object)?)?;
     } else {
-        tell(args, &output, seconds, peak, &written, hygiene.invalid_pixels);
+        tell(out, args, &made, seconds, peak, hygiene.invalid_pixels)?;
+        main.tell("")?;
+        for (_, path) in written {
+            say!(out, "wrote {}", path.display())?;
+        }
+    }
+    Ok(Exit::Done)
+}
+
+fn tell(
+    out: Out,
+    args: &Denoise,
+    made: &noisefloor_denoiser::Output,
+    seconds: f64,
+    peak: Option<u64>,
+    invalid: usize,
+) -> anyhow::Result<()> {
+    say!(out, "{}: {:.1} ms on {} threads", args.method, seconds * 1e3, rayon::current_num_threads())?;
+    for stage in &made.stages {
+        say!(out, "  {:24} {:9.1} ms", stage.name, stage.seconds * 1e3)?;
+    }
+    if let Some(bytes) = peak {
+        say!(out, "  peak memory {:.0} MiB", bytes as f64 / f64::from(1 << 20))?;
+    }
+    if invalid > 0 {
+        say!(out, "  {invalid} input pixels were not finite and were filled from their neighbours")?;
     }
     Ok(())
 }
 
-fn tell(
-    args: &Denoise,
-    output: &Output,
-    seconds: f64,
-    peak: Option<u64>,
-    written: &[(String, PathBuf)],
-    invalid: usize,
-) {
-    println!("{}: {:.1} ms on {} threads", args.method, seconds * 1e3, rayon::current_num_threads());
-    for stage in &output.stages {
-        println!("  {:24} {:9.1} ms", stage.name, stage.seconds * 1e3);
-    }
-    if let Some(bytes) = peak {
-        println!("  peak memory {:.0} MiB", bytes as f64 / f64::from(1 << 20));
-    }
-    if invalid > 0 {
-        println!("  {invalid} input pixels were not finite and were filled from their neighbours");
-    }
-    println!("wrote {}", args.output.display());
-    for (_, path) in written {
-        println!("wrote {}", path.display());
-    }
+/// Refuses a sample count for a frame that says another one itself.
+fn check_spp(frame: &Path, given: u32) -> anyhow::Result<()> {
+    let info = read_info(frame)?;
+    let says = match info.spp {
+        _ if info.layers.iter().any(|layer| layer == "samples") => "it for every pixel".to_owned(),
+        Some(own) if own != f64::from(given) => own.to_string(),
+        _ => return Ok(()),
+    };
+    Err(usage(format!(
+        "--spp {given} is for a frame that does not say its samples per pixel; {} says {says}",
+        frame.display()
+    )))
 }
 
 /// `name=value` pairs; a value that is no JSON is taken as text.
@@ -108,12 +138,47 @@ fn attributes(args: &Denoise, params: &Value) -> BTreeMap<String, String> {
     ])
 }
 
-fn write_diagnostic(output: &Path, name: &str, image: &Image) -> anyhow::Result<PathBuf> {
-    let stem = output.file_stem().map_or_else(|| "output".into(), |s| s.to_string_lossy().into_owned());
-    let safe: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
-    let path = output.with_file_name(format!("{stem}.{safe}.exr"));
-    write_image(&path, image, &BTreeMap::from([("diagnostic".to_owned(), name.to_owned())]))?;
-    Ok(path)
+/// `STEM.NAME.exr` beside the output for every diagnostic, each a file of its own.
+fn diagnostic_paths(output: &Path, names: &[&str]) -> Vec<PathBuf> {
+    let mut taken = BTreeSet::new();
+    let mut paths = Vec::new();
+    for name in names {
+        let safe: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
+        let mut unique = safe.clone();
+        let mut count = 1;
+        while !taken.insert(unique.clone()) {
+            count += 1;
+            unique = format!("{safe}-{count}");
+        }
+        paths.push(output.with_file_name(format!("{}.{unique}.exr", stem(output))));
+    }
+    paths
+}
+
+fn stem(output: &Path) -> String {
+    output.file_stem().map_or_else(|| "output".into(), |s| s.to_string_lossy().into_owned())
+}
+
+/// Refuses an input that a diagnostic could write over. Their names are known only when the work is done, so whatever
+/// is named like one counts.
+fn spare_from_diagnostics(output: &Path, input: &Path) -> anyhow::Result<()> {
+    let folder = match output.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let (start, end) = (format!("{}.", stem(output)), ".exr");
+    for entry in std::fs::read_dir(folder).into_iter().flatten().filter_map(Result::ok) {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let inside = name.strip_prefix(&start).and_then(|rest| rest.strip_suffix(end));
+        if inside.is_some_and(|inside| !inside.is_empty()) && same_file(&entry.path(), input) {
+            return Err(usage(format!(
+                "--diagnostics writes files named {start}NAME.exr, and the input {} may be one of them: choose another \
+                 output",
+                input.display()
+            )));
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -125,5 +190,12 @@ mod tests {
         let map = overrides(&["a=1.5".into(), "b=color".into(), "c=true".into()]).unwrap();
         assert_eq!(Value::Object(map), json!({"a": 1.5, "b": "color", "c": true}));
         assert!(overrides(&["nothing".into()]).unwrap_err().to_string().contains("NAME=VALUE"));
+    }
+
+    #[test]
+    fn diagnostics_have_files_of_their_own() {
+        let paths = diagnostic_paths(Path::new("a/out.exr"), &["σ²", "µ²", "step 1"]);
+        let names = ["out.--.exr", "out.---2.exr", "out.step-1.exr"];
+        assert_eq!(paths, names.map(|name| Path::new("a").join(name)));
     }
 }

@@ -6,8 +6,13 @@
 mod args;
 mod compare;
 mod context;
+mod convert;
 mod denoise;
+mod exit;
+mod interrupt;
 mod methods;
+mod out;
+mod output;
 mod progress;
 mod render;
 mod report;
@@ -16,32 +21,54 @@ mod scenes;
 mod shot;
 mod table;
 
+use std::io::{self, ErrorKind, Write as _};
 use std::process::ExitCode;
 
 use clap::Parser;
 use noisefloor_denoiser::Entry;
 
+use crate::exit::Exit;
+use crate::out::note;
+
 /// Runs the command with the built-in methods and `extra` ones, on the arguments of the process.
 ///
-/// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage.
+/// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage; 3: a report of an unfinished study; 130:
+/// stopped by Ctrl-C.
 #[must_use]
 pub fn main_with(extra: &[Entry]) -> ExitCode {
-    let args = args::Args::parse();
+    let args = match args::Args::try_parse() {
+        Ok(args) => args,
+        Err(asked) => return help(&asked).into(),
+    };
     let context = context::Context::new(extra);
     let done = match args.verb.unwrap_or_default() {
         args::Verb::Run(verb) => run::run(&context, &verb),
         args::Verb::Render(verb) => render::run(&context, &verb),
         args::Verb::Denoise(verb) => denoise::run(&context, &verb),
         args::Verb::Compare(verb) => compare::run(&verb),
+        args::Verb::Convert(verb) => convert::run(&verb),
         args::Verb::Report(verb) => report::run(&verb),
         args::Verb::Methods(verb) => methods::run(&context, &verb),
         args::Verb::Scenes(verb) => scenes::run(&verb),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(exit) => exit.into(),
         Err(error) => {
-            eprintln!("noisefloor: {error:#}");
-            ExitCode::FAILURE
+            note!("noisefloor: {}", exit::told(&error));
+            Exit::of(&error).into()
         }
+    }
+}
+
+/// Shows a help text or what is wrong with the arguments.
+fn help(asked: &clap::Error) -> Exit {
+    let shown = asked.print().and_then(|()| io::stdout().flush());
+    match shown {
+        _ if asked.use_stderr() => Exit::Usage,
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            note!("noisefloor: cannot write to standard output: {error}");
+            Exit::Failed
+        }
+        _ => Exit::Done,
     }
 }

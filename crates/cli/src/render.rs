@@ -10,7 +10,6 @@ use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
 use noisefloor_harness::{Maps, Shot};
-use noisefloor_io::{write_frame, write_reference};
 use noisefloor_render::{
     FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available, sequence_seed,
 };
@@ -19,18 +18,37 @@ use serde_json::Map;
 
 use crate::args::Render;
 use crate::context::{Context, use_threads};
-use crate::progress::bar;
+use crate::exit::{Exit, usage};
+use crate::out::{note, say};
+use crate::output::Output;
+use crate::progress::Progress;
 use crate::shot::{is_gltf, shot};
 
-pub fn run(context: &Context, args: &Render) -> anyhow::Result<()> {
+pub fn run(context: &Context, args: &Render) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
-    let base = find_scene(args)?;
     let first = shot(&args.shot, Maps::Fixed)?;
-    for frame in first.frame..first.frame.saturating_add(args.frames) {
-        let output = if args.frames == 1 { args.output.clone() } else { numbered(&args.output, frame) };
-        one(context, args, &base, Shot { frame, ..first }, &output)?;
+    if args.map_seed.is_some() && first.photons().is_none() {
+        return Err(usage("--map-seed needs photon maps: add --integrator photon-mapping or --photons"));
     }
-    Ok(())
+    let output = Output::new(&args.output, args.exposure)?;
+    if args.frames > 1 {
+        output.need_file("--frames")?;
+    }
+    let frames = first.frame..first.frame.saturating_add(args.frames);
+    let output_of = |frame| match args.frames {
+        1 => output.clone(),
+        _ => output.beside(numbered(&args.output, frame)),
+    };
+    let scene = Path::new(&args.scene);
+    let (base, read) = find_scene(args)?;
+    let inputs = args.environment.iter().chain(&read).map(PathBuf::as_path).chain([scene]);
+    for frame in frames.clone() {
+        output_of(frame).spare(inputs.clone())?;
+    }
+    for frame in frames {
+        one(context, args, &base, Shot { frame, ..first }, &output_of(frame))?;
+    }
+    Ok(Exit::Done)
 }
 
 /// `STEM.0007.exr` for frame 7.
@@ -41,7 +59,7 @@ fn numbered(path: &Path, frame: u32) -> PathBuf {
 }
 
 /// Renders and writes one frame.
-fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path) -> anyhow::Result<()> {
+fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Output) -> anyhow::Result<()> {
     let mut scene = shot.of(base.clone());
     if let Some(path) = &args.environment {
         scene.sky = Some(Sky::Map(Arc::new(environment(path)?)));
@@ -57,11 +75,15 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path
     };
     let prepared = Prepared::new(&scene)?;
     let maps = settings
-        .map(|s| PhotonMaps::new(&prepared, &s, sequence_seed(args.map_seed, shot.frame)))
+        .map(|s| PhotonMaps::new(&prepared, &s, sequence_seed(args.map_seed.unwrap_or(0), shot.frame)))
         .transpose()?;
     if let Some(maps) = maps.as_ref().filter(|_| !args.quiet) {
         let [caustic, global] = maps.len();
-        println!("photon maps: {caustic} caustic and {global} global photons in {:.1} s", maps.seconds());
+        say!(
+            output.messages(),
+            "photon maps: {caustic} caustic and {global} global photons in {:.1} s",
+            maps.seconds()
+        )?;
     }
     let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
     request.seed = sequence_seed(args.seed, shot.frame);
@@ -79,10 +101,10 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path
     }
 
     let pixels = (args.size.width * args.size.height) as u64;
-    let progress = bar(pixels * u64::from(args.parts.unwrap_or(1)), args.quiet);
-    progress.set_message(format!("{} at {} samples per pixel", scene.id, args.spp));
+    let progress = Progress::new(pixels * u64::from(args.parts.unwrap_or(1)), args.quiet);
+    progress.stage("", format!("{} at {} samples per pixel", scene.id, args.spp));
     let advance = |finished: usize| {
-        progress.inc(finished as u64);
+        progress.advance(finished as u64);
         ControlFlow::Continue(())
     };
     let mut extra = BTreeMap::new();
@@ -93,27 +115,25 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Path
     if shot.frame > 0 {
         extra.insert("sequence_frame".to_owned(), shot.frame.to_string());
     }
-    let seconds = match args.parts {
+    let (seconds, written) = match args.parts {
         Some(parts) => {
             request.sampling = Sampling::LowDiscrepancy;
             let mut reference = noisefloor_render::render_reference(&request, parts, &advance)?;
             reference.frame.provenance.extra.extend(extra);
-            write_reference(output, &reference)?;
-            reference.frame.provenance.render_seconds
+            (reference.frame.provenance.render_seconds, output.reference(&reference)?)
         }
         None => {
             let mut frame = noisefloor_render::render(&request, &advance)?;
             frame.provenance.extra.extend(extra);
-            write_frame(output, &frame)?;
-            frame.provenance.render_seconds
+            (frame.provenance.render_seconds, output.frame(&frame)?)
         }
     };
-    progress.finish_and_clear();
+    progress.finish();
     if !args.quiet {
         let rate = seconds.filter(|s| *s > 0.0).map_or(String::new(), |s| {
             format!(" in {s:.1} s, {:.2} million samples/s", (pixels * u64::from(args.spp)) as f64 / s / 1e6)
         });
-        println!("wrote {}{rate}", output.display());
+        written.tell(rate)?;
     }
     Ok(())
 }
@@ -130,17 +150,17 @@ fn environment(path: &Path) -> anyhow::Result<EnvironmentMap> {
     })
 }
 
-/// A built-in scene, or one from a file, whose notices go to the standard error stream.
-fn find_scene(args: &Render) -> anyhow::Result<Scene> {
+/// A built-in scene, or one from a file with all files that were read for it; notices go to standard error.
+fn find_scene(args: &Render) -> anyhow::Result<(Scene, Vec<PathBuf>)> {
     let path = Path::new(&args.scene);
     if !is_gltf(path) && !path.is_file() {
-        return Ok((noisefloor_scenes::find(&args.scene)?.build)());
+        return Ok(((noisefloor_scenes::find(&args.scene)?.build)(), Vec::new()));
     }
     let loaded = noisefloor_gltf::load(path)?;
     for notice in &loaded.notices {
-        eprintln!("notice: {notice}");
+        note!("notice: {notice}");
     }
-    Ok(loaded.scene)
+    Ok((loaded.scene, loaded.files))
 }
 
 /// Everything that some registered method needs or uses, as far as the scene can give it.

@@ -4,8 +4,10 @@ use anyhow::bail;
 use noisefloor_report::ReportOptions;
 
 use crate::args::Report;
+use crate::exit::Exit;
+use crate::out::{Out, say};
 
-pub fn run(args: &Report) -> anyhow::Result<()> {
+pub fn run(args: &Report) -> anyhow::Result<Exit> {
     if !(args.viewer_budget.is_finite() && args.viewer_budget >= 0.0) {
         bail!("--viewer-budget is {}, expected a size in MB from 0", args.viewer_budget);
     }
@@ -13,6 +15,6 @@ pub fn run(args: &Report) -> anyhow::Result<()> {
     let options =
         ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
     let files = noisefloor_report::write_report_with(&args.dir, &summary, &options)?;
-    println!("report: {}", files.index.display());
-    Ok(())
+    say!(Out::Stdout, "report: {}", files.index.display())?;
+    Ok(Exit::Done)
 }

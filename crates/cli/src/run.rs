@@ -1,26 +1,33 @@
 //! `noisefloor run`.
 
+mod fit;
+mod watch;
+
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use indicatif::ProgressBar;
-use noisefloor_harness::record::{Outcome, Record};
 use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{HarnessError, Maps, MethodRow, Observer, Shot, Stage, Study, StudyRun, Workload};
+use noisefloor_harness::{Maps, MethodRow, Study, StudyRun};
+use noisefloor_report::ReportFiles;
 
 use crate::args::Run;
 use crate::context::{Context, default_cache, use_threads};
-use crate::progress::bar;
+use crate::exit::Exit;
+use crate::interrupt;
+use crate::out::{Out, note, say};
+use crate::run::fit::{Kind, check_options, check_study};
+use crate::run::watch::Watcher;
 use crate::shot::{is_gltf, shot, shot_command};
 use crate::table::{paper_table, summary_table};
 
-pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
+pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
-    let study = find_study(args)?;
+    let (study, kind) = find_study(args)?;
     let out = args.out.clone().unwrap_or_else(|| {
         let size = args.size.map_or(String::new(), |s| format!("-{}x{}", s.width, s.height));
         Path::new("noisefloor-results").join(format!("{}{size}", study.name))
     });
+    check_study(args, kind, &study, &out)?;
     let cache = args.cache.clone().unwrap_or_else(default_cache);
     let watcher = Watcher::new(args.quiet);
     let request = StudyRun {
@@ -33,24 +40,33 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<()> {
         simd: noisefloor_kernels::Level::best().name().to_owned(),
         observer: &watcher,
     };
+    interrupt::catch()?;
     let ended = noisefloor_harness::run(&request);
-    watcher.bar.finish_and_clear();
-    let summary = ended.map_err(|error| explain(error, &out))?;
+    watcher.finish();
+    let summary = ended.map_err(|error| watcher.explain(error, &out))?;
     let files = noisefloor_report::write_report(&out, &summary)?;
+    let shown = show(args, &summary, &files);
+    fail_on_violations(&summary)?;
+    shown?;
+    Ok(Exit::Done)
+}
+
+/// The tables, or with `--quiet` what must not be missed.
+fn show(args: &Run, summary: &Summary, files: &ReportFiles) -> anyhow::Result<()> {
     if !args.quiet {
-        print!("{}", summary_table(&summary));
-        let paper = paper_table(&summary);
+        Out::Stdout.text(summary_table(summary))?;
+        let paper = paper_table(summary);
         if !paper.is_empty() {
-            print!("\n{paper}");
+            Out::Stdout.text(format_args!("\n{paper}"))?;
         }
-        println!("\nreport: {}", files.index.display());
+        say!(Out::Stdout, "\nreport: {}", files.index.display())?;
     } else if let Some(first) = summary.findings.first() {
-        eprintln!(
+        note!(
             "noisefloor: {} about the inputs; the first: {first}",
             plural(summary.findings.len(), "finding")
         );
     }
-    fail_on_violations(&summary)
+    Ok(())
 }
 
 fn plural(count: usize, word: &str) -> String {
@@ -66,28 +82,24 @@ fn fail_on_violations(summary: &Summary) -> anyhow::Result<()> {
     bail!("an enclosure that must always hold was violated:\n  {}", violations.join("\n  "))
 }
 
-fn explain(error: HarnessError, out: &Path) -> anyhow::Error {
-    anyhow::Error::new(error).context(format!(
-        "the run stopped; finished cells are kept in {} and a new run continues there",
-        out.display()
-    ))
-}
-
-fn find_study(args: &Run) -> anyhow::Result<Study> {
+fn find_study(args: &Run) -> anyhow::Result<(Study, Kind)> {
     let name = args.study.as_deref().unwrap_or("quick");
     let path = Path::new(name);
-    let maps = if args.maps == Maps::Fresh.name() { Maps::Fresh } else { Maps::Fixed };
-    let shot = shot(&args.shot, maps)?;
     let of_scene = is_gltf(path) && path.is_file()
         || noisefloor_scenes::find(name).is_ok() && Study::builtin(name).is_err() && !path.exists();
-    if shot != Shot::default() && !of_scene {
-        bail!(
-            "--frame, --orbit, --integrator, --photons and --maps are for a scene; `{name}` is none: a study file says them itself"
-        );
-    }
+    let kind = match () {
+        () if of_scene => Kind::Scene,
+        () if path.is_dir() => Kind::Folder,
+        () => Kind::Study,
+    };
+    // First whether there is such a thing at all.
     let study = if of_scene {
+        check_options(args, kind, name)?;
+        let fresh = args.maps.as_deref() == Some(Maps::Fresh.name());
+        let shot = shot(&args.shot, if fresh { Maps::Fresh } else { Maps::Fixed })?;
         Study::for_scene(name, shot, scene_rows())?
-    } else if path.is_dir() {
+    } else if kind == Kind::Folder {
+        check_options(args, kind, name)?;
         Study::for_folder(path, args.spp, folder_rows())
             .with_context(|| format!("reading the frames in {}", path.display()))?
     } else if path.is_file() {
@@ -97,7 +109,8 @@ fn find_study(args: &Run) -> anyhow::Result<Study> {
     } else {
         Study::builtin(name)?
     };
-    Ok(study)
+    check_options(args, kind, name)?;
+    Ok((study, kind))
 }
 
 /// The command line as a person would type it again.
@@ -112,7 +125,7 @@ fn command(args: &Run) -> String {
         text.push_str(&format!(" --size {}x{}", size.width, size.height));
     }
     text.push_str(&shot_command(&args.shot));
-    if args.maps == Maps::Fresh.name() {
+    if args.maps.as_deref() == Some(Maps::Fresh.name()) {
         text.push_str(" --maps fresh");
     }
     if let Some(threads) = args.threads {
@@ -122,60 +135,6 @@ fn command(args: &Run) -> String {
         text.push_str(&format!(" --spp {spp}"));
     }
     text
-}
-
-/// Draws one bar over everything: rendered samples and finished cells, in one unit.
-struct Watcher {
-    bar: ProgressBar,
-    quiet: bool,
-}
-
-/// A cell counts as this many camera samples in the bar: about what it costs on small images.
-const SAMPLES_PER_CELL: u64 = 300_000;
-
-impl Watcher {
-    fn new(quiet: bool) -> Self {
-        Self { bar: bar(0, quiet), quiet }
-    }
-}
-
-impl Observer for Watcher {
-    fn planned(&self, work: &Workload) {
-        self.bar.set_length(work.samples + work.cells * SAMPLES_PER_CELL);
-        self.bar.reset();
-        if work.kept > 0 && !self.quiet {
-            self.bar.println(format!("continuing: {} cells are finished already", work.kept));
-        }
-    }
-
-    fn stage(&self, stage: &Stage) {
-        let text = match stage {
-            Stage::Reference { scene, part, parts } => {
-                format!("{scene}: reference, part {} of {parts}", part + 1)
-            }
-            Stage::Frame { scene, spp, replicate } => {
-                format!("{scene}: {spp} samples per pixel, replicate {replicate}")
-            }
-            Stage::Denoise { scene, spp, label, .. } => format!("{scene}: {label} at {spp}"),
-            Stage::Analysis => "analysis".to_owned(),
-            _ => String::new(),
-        };
-        self.bar.set_message(text);
-    }
-
-    fn rendered(&self, samples: u64) {
-        self.bar.inc(samples);
-    }
-
-    fn cell(&self, _: &Record, _: &Outcome) {
-        self.bar.inc(SAMPLES_PER_CELL);
-    }
-
-    fn warning(&self, text: &str) {
-        if !self.quiet {
-            self.bar.suspend(|| eprintln!("warning: {text}"));
-        }
-    }
 }
 
 /// Rows for a scene that is rendered here.

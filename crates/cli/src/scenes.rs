@@ -1,10 +1,11 @@
 //! `noisefloor scenes`.
 
-use std::io::Write as _;
+use std::io::ErrorKind;
 use std::path::Path;
 use std::time::Instant;
 
 use noisefloor_frame::Image;
+use noisefloor_io::{Destination, IoError};
 use noisefloor_metrics::tone_map;
 use noisefloor_render::{
     Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderRequest, Silent, render, render_reference,
@@ -14,12 +15,14 @@ use serde_json::{Value, json};
 
 use crate::args::Scenes;
 use crate::context::use_threads;
-use crate::progress::bar;
+use crate::exit::{Exit, usage};
+use crate::out::{Out, say};
+use crate::progress::Progress;
 
 /// Pairs beside each other on a contact sheet.
 const COLUMNS: usize = 3;
 
-pub fn run(args: &Scenes) -> anyhow::Result<()> {
+pub fn run(args: &Scenes) -> anyhow::Result<Exit> {
     if let Some(path) = &args.sheet {
         return sheet(args, path);
     }
@@ -43,26 +46,33 @@ pub fn run(args: &Scenes) -> anyhow::Result<()> {
             .filter(|(_, on)| **on == Value::Bool(true))
             .map(|(name, _)| name.as_str())
             .collect();
-        println!("{}\n  {}\n  models: {}", entry.id, entry.about, on.join(", ").replace('_', " "));
+        say!(Out::Stdout, "{}\n  {}\n  models: {}", entry.id, entry.about, on.join(", ").replace('_', " "))?;
         if entry.photon_mapped {
-            println!("  photon mapped in its source: --integrator photon-mapping");
+            say!(Out::Stdout, "  photon mapped in its source: --integrator photon-mapping")?;
         }
-        println!("  records: colour, {}\n  primitives: {}\n", records.join(", "), scene.primitives());
+        say!(
+            Out::Stdout,
+            "  records: colour, {}\n  primitives: {}\n",
+            records.join(", "),
+            scene.primitives()
+        )?;
     }
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&list)?);
+        say!(Out::Stdout, "{}", serde_json::to_string_pretty(&list)?)?;
     }
-    Ok(())
+    Ok(Exit::Done)
 }
 
 /// Renders every scene and writes the contact sheet.
-fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
+fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
+    let to = sheet_destination(path)?;
+    let out = if to == Destination::Stdout { Out::Stderr } else { Out::Stdout };
     let scenes = noisefloor_scenes::builtin();
-    let progress = bar(scenes.len() as u64, args.quiet);
+    let progress = Progress::new(scenes.len() as u64, args.quiet);
     let mut entries = Vec::new();
     for entry in scenes {
-        progress.set_message(entry.id);
+        progress.stage("", entry.id.to_owned());
         let prepared = Prepared::new(&(entry.build)())?;
         let maps = entry.photon_mapped.then(|| PhotonMaps::new(&prepared, &PhotonSettings::default(), 0));
         let maps = maps.transpose()?;
@@ -94,13 +104,30 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<()> {
         });
         let rate = frame.pixels() as f64 * f64::from(args.spp) / seconds.max(1e-9) / 1e6;
         if !args.quiet {
-            progress.suspend(|| println!("{:16} {rate:6.2} million samples/s", entry.id));
+            progress.suspend(|| say!(out, "{:16} {rate:6.2} million samples/s", entry.id))?;
         }
-        progress.inc(1);
+        progress.advance(1);
     }
-    progress.finish_and_clear();
+    progress.finish();
     let png = contact_sheet(&entries, COLUMNS)?;
-    noisefloor_io::write_atomically(path, |out| out.write_all(&png))?;
-    println!("wrote {}", path.display());
-    Ok(())
+    match to.write(|out| out.write_all(&png)) {
+        // Whoever reads standard output has seen enough.
+        Err(IoError::Write { cause, .. })
+            if to == Destination::Stdout && cause.kind() == ErrorKind::BrokenPipe => {}
+        other => other?,
+    }
+    say!(out, "wrote {to}")?;
+    Ok(Exit::Done)
+}
+
+/// A PNG file, or whatever else is no regular file; refused before any work otherwise.
+fn sheet_destination(path: &Path) -> anyhow::Result<Destination> {
+    let to = Destination::from_argument(path);
+    if let Some(file) = to.file()?
+        && ![path, &file].iter().all(|name| name.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")))
+    {
+        return Err(usage(format!("--sheet {}: the name must end in .png, or be -", path.display())));
+    }
+    to.check()?;
+    Ok(to)
 }

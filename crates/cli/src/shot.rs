@@ -2,20 +2,21 @@
 
 use std::path::Path;
 
-use anyhow::bail;
 use noisefloor_harness::{Maps, Shot};
 use noisefloor_render::{Integrator, PhotonSettings};
 
 use crate::args;
+use crate::exit::usage;
 
 /// From the command line.
 pub fn shot(args: &args::Shot, maps: Maps) -> anyhow::Result<Shot> {
-    let integrator = Integrator::from_name(&args.integrator).unwrap_or_default();
+    let integrator = args.integrator.as_deref().and_then(Integrator::from_name).unwrap_or_default();
     let usual = PhotonSettings::default();
     let wanted = args.photons.is_some() || integrator == Integrator::PhotonMapping;
-    let changed = args.photon_radius != 1.0 && args.photon_radius != 0.0;
-    if !wanted && (changed || maps == Maps::Fresh) {
-        bail!("--photon-radius and --maps need photon maps: add --integrator photon-mapping or --photons");
+    if !wanted && (args.photon_radius.is_some() || maps == Maps::Fresh) {
+        return Err(usage(
+            "--photon-radius and --maps need photon maps: add --integrator photon-mapping or --photons",
+        ));
     }
     let paths = args.photons.unwrap_or(usual.paths);
     let most = 1 << 26;
@@ -25,10 +26,10 @@ pub fn shot(args: &args::Shot, maps: Maps) -> anyhow::Result<Shot> {
         ..usual
     };
     Ok(Shot {
-        frame: args.frame,
-        orbit_degrees: args.orbit,
+        frame: args.frame.unwrap_or(0),
+        orbit_degrees: args.orbit.unwrap_or(0.0),
         integrator,
-        photons: wanted.then(|| photons.scaled(args.photon_radius)),
+        photons: wanted.then(|| photons.scaled(args.photon_radius.unwrap_or(1.0))),
         maps,
     })
 }
@@ -36,23 +37,22 @@ pub fn shot(args: &args::Shot, maps: Maps) -> anyhow::Result<Shot> {
 /// The same as a person would type it again.
 pub fn shot_command(args: &args::Shot) -> String {
     let mut text = String::new();
-    if args.frame > 0 {
-        text.push_str(&format!(" --frame {}", args.frame));
+    if let Some(frame) = args.frame {
+        text.push_str(&format!(" --frame {frame}"));
     }
-    if args.orbit != 0.0 {
-        text.push_str(&format!(" --orbit {}", args.orbit));
+    if let Some(orbit) = args.orbit {
+        text.push_str(&format!(" --orbit {orbit}"));
     }
-    if args.integrator == Integrator::PhotonMapping.name() {
-        text.push_str(&format!(" --integrator {}", args.integrator));
+    if let Some(integrator) = &args.integrator {
+        text.push_str(&format!(" --integrator {integrator}"));
     }
     for (name, value) in [("photons", args.photons), ("caustic-photons", args.caustic_photons)] {
         if let Some(value) = value {
             text.push_str(&format!(" --{name} {value}"));
         }
     }
-    // 0 only where nobody asked: `run` without a verb.
-    if args.photon_radius != 1.0 && args.photon_radius != 0.0 {
-        text.push_str(&format!(" --photon-radius {}", args.photon_radius));
+    if let Some(radius) = args.photon_radius {
+        text.push_str(&format!(" --photon-radius {radius}"));
     }
     text
 }

@@ -22,3 +22,6 @@ pub const CITATION: Citation = Citation {
     key: "finalstage2020",
     text: "Simple Geometric Image Denoising for Real-time Path Tracers, slides about the Final Stage renderer, 2020",
 };
+
+/// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.
+pub const README: &str = include_str!("../README.md");

@@ -1,6 +1,6 @@
 //! Bytes of buffers, and numbers of accessors with every bound checked before anything is read or allocated.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -112,7 +112,13 @@ pub fn fetch(uri: &str, folder: &Path, what: &str) -> Result<Vec<u8>, GltfError>
     if uri.contains("://") {
         return Err(GltfError::data(what, "is on the network, but only files are read"));
     }
-    read_file(&folder.join(uri.replace("%20", " ")))
+    read_file(&file_of(uri, folder).unwrap_or_default())
+}
+
+/// The file that a URI names; none for embedded data and for the network.
+pub fn file_of(uri: &str, folder: &Path) -> Option<PathBuf> {
+    let embedded = uri.starts_with("data:") || uri.contains("://");
+    (!embedded).then(|| folder.join(uri.replace("%20", " ")))
 }
 
 /// A regular file; a device or a pipe may never end.

@@ -1,12 +1,12 @@
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use glam::{Mat4, Vec3};
 use gltf::camera::Projection;
 use noisefloor_scenes::{CameraSpec, Scene, Sky};
 
 use crate::GltfError;
-use crate::data::{Buffers, read_file};
+use crate::data::{Buffers, file_of, read_file};
 use crate::geometry::mesh;
 use crate::material::Materials;
 
@@ -20,6 +20,8 @@ pub struct Loaded {
     pub scene: Scene,
     /// What was left out, dropped or made up, one sentence each.
     pub notices: Vec<String>,
+    /// Every file that was read: the scene's own first, then buffers and images.
+    pub files: Vec<PathBuf>,
 }
 
 /// Loads a `.gltf` or `.glb` file.
@@ -34,6 +36,7 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let buffers = Buffers::read(&mut gltf, folder)?;
     let document = &gltf.document;
+    let files = std::iter::once(path.to_owned()).chain(named_files(document, folder)).collect();
     let id = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let unset =
         CameraSpec { eye: Vec3::Z, target: Vec3::ZERO, up: Vec3::Y, vertical_fov_degrees: 45.0, lens: None };
@@ -103,7 +106,15 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
     }
     notices.extend(left_out.into_iter().map(|what| format!("not supported, left out: {what}")));
     scene.check()?;
-    Ok(Loaded { scene, notices })
+    Ok(Loaded { scene, notices, files })
+}
+
+/// The files that buffers and images are in, whether or not a material shows them.
+fn named_files(document: &gltf::Document, folder: &Path) -> Vec<PathBuf> {
+    let written = document.as_json();
+    let buffers = written.buffers.iter().filter_map(|buffer| buffer.uri.as_deref());
+    let images = written.images.iter().filter_map(|image| image.uri.as_deref());
+    buffers.chain(images).filter_map(|uri| file_of(uri, folder)).collect()
 }
 
 /// What the file as a whole has and a scene cannot show.

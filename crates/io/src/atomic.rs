@@ -1,39 +1,67 @@
-use std::fs::File;
-use std::io::{self, BufWriter, Write as _};
+use std::fs::{self, Permissions};
+use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
 use tempfile::{Builder, NamedTempFile};
 
-use crate::IoError;
+use crate::{Destination, IoError};
 
-/// Writes a file so that others see either the old contents or all of the new ones.
+/// Writes a file so that others see either the old contents or all of the new ones; see
+/// [`Destination`](crate::Destination) for links, and for what is no regular file.
+///
+/// # Errors
+/// [`IoError::Write`] naming `path`: missing or unwritable folder, read-only file, full disk, or the error that `fill`
+/// returned.
+pub fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), IoError> {
+    Destination::from(path).write(fill)
+}
+
+/// Replaces or makes a regular file.
 ///
 /// `fill` writes to a temporary file in the same folder, which is flushed to disk and renamed. If anything fails
 /// the temporary file is removed and a file that was at `path` before is unchanged. A killed process can leave a
 /// hidden `.tmp…` file behind, never a partial file at `path`.
-///
-/// # Errors
-/// [`IoError::Write`] naming `path`: missing or unwritable folder, full disk, or the error that `fill` returned.
-pub fn write_atomically(
-    path: &Path,
-    fill: impl FnOnce(&mut BufWriter<&mut File>) -> io::Result<()>,
-) -> Result<(), IoError> {
-    let attempt = || -> io::Result<()> {
-        let folder = match path.parent() {
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
-        };
-        let mut temporary = create_in(folder)?;
-        let mut buffered = BufWriter::new(temporary.as_file_mut());
-        fill(&mut buffered)?;
-        buffered.flush()?;
-        drop(buffered);
-        // Without this a crash of the machine could keep the rename and lose the contents.
-        temporary.as_file().sync_all()?;
-        temporary.persist(path).map_err(|failed| failed.error)?;
-        Ok(())
+pub(crate) fn replace(path: &Path, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+    let (mut temporary, before) = prepare(path)?;
+    let mut buffered = BufWriter::new(temporary.as_file_mut());
+    fill(&mut buffered)?;
+    buffered.flush()?;
+    drop(buffered);
+    if let Some(permissions) = before {
+        temporary.as_file().set_permissions(permissions)?;
+    }
+    // Without this a crash of the machine could keep the rename and lose the contents.
+    temporary.as_file().sync_all()?;
+    temporary.persist(path).map_err(|failed| nameless(failed.error))?;
+    Ok(())
+}
+
+/// A temporary file beside `path`, and the permissions of a file that is there already.
+pub(crate) fn prepare(path: &Path) -> io::Result<(NamedTempFile, Option<Permissions>)> {
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     };
-    attempt().map_err(|cause| IoError::write(path, cause))
+    let before = fs::metadata(path).ok().map(|found| found.permissions());
+    // The rename would not ask.
+    if before.as_ref().is_some_and(Permissions::readonly) {
+        return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is read-only"));
+    }
+    Ok((create_in(folder).map_err(nameless)?, before))
+}
+
+/// The system's reason without the name of the temporary file, which says nothing to the user.
+fn nameless(error: io::Error) -> io::Error {
+    let inner =
+        error.get_ref().and_then(|wrapped| wrapped.source()).and_then(|e| e.downcast_ref::<io::Error>());
+    match inner.and_then(io::Error::raw_os_error) {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None if error.get_ref().is_some() => error.kind().into(),
+        None => error,
+    }
 }
 
 fn create_in(folder: &Path) -> io::Result<NamedTempFile> {
@@ -62,7 +90,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.txt");
         write_atomically(&path, |out| out.write_all(b"old")).unwrap();
-        let full = |out: &mut BufWriter<&mut File>| {
+        let full = |out: &mut dyn Write| {
             out.write_all(&[7; 100_000])?;
             Err(io::Error::from(io::ErrorKind::StorageFull))
         };
@@ -82,6 +110,7 @@ mod tests {
         for path in [folder.path().join("absent/a.txt"), folder.path().to_owned()] {
             let error = write_atomically(&path, |out| out.write_all(b"x")).unwrap_err();
             assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
+            assert!(!error.to_string().contains(".tmp"), "{error}");
         }
         assert_eq!(names(folder.path()), Vec::<String>::new());
     }
@@ -96,5 +125,23 @@ mod tests {
         std::fs::write(&plain, b"x").unwrap();
         let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&plain));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_keeps_its_permissions_and_a_read_only_one_its_contents() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("private");
+        std::fs::write(&path, b"old").unwrap();
+        let set = |mode| std::fs::set_permissions(&path, Permissions::from_mode(mode)).unwrap();
+        set(0o640);
+        write_atomically(&path, |out| out.write_all(b"new")).unwrap();
+        assert_eq!(std::fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o640);
+        set(0o440);
+        let error = write_atomically(&path, |out| out.write_all(b"newer")).unwrap_err().to_string();
+        assert!(error.contains("read-only") && !error.contains(".tmp"), "{error}");
+        assert_eq!(std::fs::read(&path).unwrap(), b"new");
+        assert_eq!(names(folder.path()), ["private"]);
     }
 }

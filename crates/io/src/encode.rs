@@ -1,7 +1,6 @@
 //! Planes and attributes to the bytes of a single-part, ZIP-compressed EXR file.
 
-use std::io::{Cursor, Write as _};
-use std::path::Path;
+use std::io::Cursor;
 
 use exr::block::UncompressedBlock;
 use exr::block::writer::ChunksWriter as _;
@@ -12,7 +11,7 @@ use exr::prelude::SmallVec;
 
 use crate::attributes::{Attributes, LONG_NAMES};
 use crate::decode::MAX_PIXELS;
-use crate::{IoError, write_atomically};
+use crate::{Destination, IoError};
 
 /// The values of a channel, row by row.
 #[derive(Debug, Clone, Copy)]
@@ -30,12 +29,18 @@ pub(crate) struct Plane<'a> {
 
 /// Writes the file atomically. Equal input gives equal bytes.
 pub(crate) fn write(
-    file: &Path,
+    to: &Destination,
     width: usize,
     height: usize,
     planes: Vec<Plane<'_>>,
     attributes: Attributes,
 ) -> Result<(), IoError> {
+    let file = to.name();
+    if let Some(named) = to.file()?
+        && named.extension().is_some_and(|extension| !extension.eq_ignore_ascii_case("exr"))
+    {
+        return Err(IoError::Extension { file: file.to_owned(), expected: ".exr" });
+    }
     if width.checked_mul(height).is_none_or(|pixels| pixels > MAX_PIXELS) {
         let limit = format!("at most {MAX_PIXELS} pixels are written");
         return Err(IoError::TooLarge {
@@ -48,7 +53,7 @@ pub(crate) fn write(
     }
     let bytes = encode(width, height, planes, attributes)
         .map_err(|error| IoError::unsupported(file, format!("the encoder refuses: {error}")))?;
-    write_atomically(file, |out| out.write_all(&bytes))
+    to.write(|out| out.write_all(&bytes))
 }
 
 fn encode(

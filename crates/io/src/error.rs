@@ -25,6 +25,14 @@ pub enum IoError {
         /// What the operating system says.
         cause: io::Error,
     },
+    /// An output whose name belongs to another kind of file.
+    #[error("{file}: an OpenEXR image is written, so its name must end in {expected}")]
+    Extension {
+        /// The file that was to be written.
+        file: PathBuf,
+        /// How its name may end.
+        expected: &'static str,
+    },
     /// The first four bytes are not those of OpenEXR.
     #[error("{file}: not an OpenEXR file")]
     NotExr {

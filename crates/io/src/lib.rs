@@ -19,6 +19,7 @@ mod atomic;
 mod attributes;
 mod check;
 mod decode;
+mod destination;
 mod encode;
 mod error;
 mod folder;
@@ -29,6 +30,7 @@ mod write;
 
 pub use atomic::write_atomically;
 pub use check::{LostFactor, VarianceScaleWarning, check_variance_scale};
+pub use destination::{Destination, same_file};
 pub use error::IoError;
 pub use folder::{FolderFrame, FrameFolder, scan_scenes};
 pub use read::{

@@ -5,26 +5,28 @@ use noisefloor_frame::{Counts, Estimate, Flash, Frame, FrameError, Image, Refere
 
 use crate::encode::{Plane, Values};
 use crate::names::{Layer, Statistic, channel_name, default_channels, parse, title};
-use crate::{IoError, attributes, encode};
+use crate::{Destination, IoError, attributes, encode};
 
-/// Writes a frame as one multi-layer EXR file, 32-bit floats, ZIP-compressed, atomically.
+/// Writes a frame as one multi-layer EXR file, 32-bit floats, ZIP-compressed, atomically, or to whatever else the
+/// [`Destination`] is.
 ///
 /// [`crate::read_frame`] gives back every number bit for bit. Equal frames give equal files.
 ///
 /// # Errors
-/// [`IoError::Write`] if the file cannot be written, [`IoError::Frame`] if the buffers of the frame do not fit together,
+/// [`IoError::Write`] if the file cannot be written, [`IoError::Extension`] if it is named like another kind of file,
+/// [`IoError::Frame`] if the buffers of the frame do not fit together,
 /// [`IoError::Mislabelled`] for an extra feature whose name would be read as something else, [`IoError::Count`] for a
 /// sample count of zero, [`IoError::Attribute`] for provenance that cannot be stored.
-pub fn write_frame(path: impl AsRef<Path>, frame: &Frame) -> Result<(), IoError> {
-    write_parts(path.as_ref(), frame, &[])
+pub fn write_frame(to: impl Into<Destination>, frame: &Frame) -> Result<(), IoError> {
+    write_parts(&to.into(), frame, &[])
 }
 
 /// Writes a reference: its frame, and its parts as layers `part0`, `part1`, ….
 ///
 /// # Errors
 /// As [`write_frame`]; [`IoError::Frame`] also if a part differs from the frame in size.
-pub fn write_reference(path: impl AsRef<Path>, reference: &Reference) -> Result<(), IoError> {
-    write_parts(path.as_ref(), &reference.frame, &reference.parts)
+pub fn write_reference(to: impl Into<Destination>, reference: &Reference) -> Result<(), IoError> {
+    write_parts(&to.into(), &reference.frame, &reference.parts)
 }
 
 /// Writes a plain image, such as a denoised result, a diagnostic or a mask, atomically.
@@ -33,24 +35,25 @@ pub fn write_reference(path: impl AsRef<Path>, reference: &Reference) -> Result<
 /// text and come back from [`crate::read_attributes`].
 ///
 /// # Errors
-/// [`IoError::Write`], [`IoError::TooLarge`]; [`IoError::Attribute`] for a name that cannot be stored.
+/// [`IoError::Write`], [`IoError::Extension`], [`IoError::TooLarge`]; [`IoError::Attribute`] for a name that cannot be stored.
 pub fn write_image(
-    path: impl AsRef<Path>,
+    to: impl Into<Destination>,
     image: &Image,
     attributes: &BTreeMap<String, String>,
 ) -> Result<(), IoError> {
-    let path = path.as_ref();
+    let to = to.into();
     let names = default_channels(image.channels());
     let planes = names
         .into_iter()
         .zip(image.planes())
         .map(|(name, plane)| Plane { name, values: Values::Float(plane) })
         .collect();
-    let attributes = attributes::of_text(path, attributes, &[])?;
-    encode::write(path, image.width(), image.height(), planes, attributes)
+    let attributes = attributes::of_text(to.name(), attributes, &[])?;
+    encode::write(&to, image.width(), image.height(), planes, attributes)
 }
 
-fn write_parts(path: &Path, frame: &Frame, parts: &[Image]) -> Result<(), IoError> {
+fn write_parts(to: &Destination, frame: &Frame, parts: &[Image]) -> Result<(), IoError> {
+    let path = to.name();
     frame.check().map_err(|cause| IoError::frame(path, cause))?;
     check_counts(path, &frame.samples, frame.width())?;
     let mut planes = Planes { file: path, planes: Vec::new() };
@@ -77,7 +80,7 @@ fn write_parts(path: &Path, frame: &Frame, parts: &[Image]) -> Result<(), IoErro
         planes.image(&Layer::Part(k), Statistic::Mean, part)?;
     }
     let attributes = attributes::of_frame(path, &frame.provenance, &frame.samples, frame.sampling)?;
-    encode::write(path, frame.width(), frame.height(), planes.planes, attributes)
+    encode::write(to, frame.width(), frame.height(), planes.planes, attributes)
 }
 
 /// Collects channels under their names.

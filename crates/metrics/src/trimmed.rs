@@ -1,9 +1,14 @@
 use crate::TRIMMED_SHARE;
 
+/// How many of so many pixels a trimmed metric drops: the largest ⌈0.1 %⌉.
+#[must_use]
+pub fn trimmed_count(pixels: usize) -> usize {
+    (pixels as f64 * TRIMMED_SHARE).ceil() as usize
+}
+
 /// Mean of `values` without the largest ⌈0.1 %⌉ of them; `None` if nothing is left. Reorders the values.
 pub(crate) fn trimmed_mean(values: &mut [f64]) -> Option<f64> {
-    let dropped = (values.len() as f64 * TRIMMED_SHARE).ceil() as usize;
-    let kept = values.len().saturating_sub(dropped);
+    let kept = values.len().saturating_sub(trimmed_count(values.len()));
     if kept == 0 {
         return None;
     }

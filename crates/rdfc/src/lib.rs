@@ -28,3 +28,6 @@ pub use params::{
 };
 pub use selection::{Choice, select};
 pub use variance::{box_mean, scaled_sample_variance, smoothed_half_variance};
+
+/// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.
+pub const README: &str = include_str!("../README.md");

@@ -40,6 +40,19 @@ pub fn builtin() -> &'static [Entry] {
     BUILTIN
 }
 
+/// The page of a built-in method, Markdown; none for the plain input and for a user's own methods.
+#[must_use]
+pub fn readme(entry: &Entry) -> Option<&'static str> {
+    // A user's method may have taken a built-in one's place.
+    builtin().iter().find(|own| own.id == entry.id && own.summary == entry.summary)?;
+    match entry.id.split('-').next()? {
+        "virtual" => Some(noisefloor_virtual_flash::README),
+        "rdfc" => Some(noisefloor_rdfc::README),
+        "geometric" => Some(noisefloor_geometric::README),
+        _ => None,
+    }
+}
+
 /// The built-in methods followed by `extra`; an extra entry with the id of a built-in one replaces it.
 #[must_use]
 pub fn registry(extra: &[Entry]) -> Registry {

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use noisefloor_denoiser::{BuildError, Entry, MC_ENTRY};
 use serde_json::{Map, Value, json};
 
-use crate::{builtin, methods_table, params_table, registry};
+use crate::{builtin, methods_table, params_table, readme, registry};
 
 fn overrides(value: Value) -> Map<String, Value> {
     value.as_object().cloned().unwrap_or_default()
@@ -21,6 +21,17 @@ fn documented_parameters_are_exactly_the_fields_of_the_defaults() {
         for param in entry.params {
             assert!(!param.range.is_empty() && !param.about.is_empty(), "{}.{}", entry.id, param.name);
         }
+    }
+}
+
+#[test]
+fn the_page_of_a_method_names_it_and_belongs_to_no_other() {
+    for entry in builtin() {
+        match readme(entry) {
+            Some(page) => assert!(page.contains(&format!("`{}`", entry.id)), "{}", entry.id),
+            None => assert_eq!(entry.id, MC_ENTRY.id),
+        }
+        assert_eq!(readme(&Entry { summary: "mine", ..*entry }), None);
     }
 }
 

@@ -11,11 +11,13 @@ mod error;
 mod format;
 mod images;
 mod index;
+mod picture;
 mod plot;
 mod sheet;
 mod view;
 mod write;
 
 pub use error::ReportError;
+pub use picture::{NON_FINITE_COLOR, Picture, error_picture, picture};
 pub use sheet::{SheetEntry, contact_sheet};
 pub use write::{ReportFiles, ReportOptions, write_report, write_report_with};

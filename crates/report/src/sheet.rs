@@ -4,6 +4,7 @@ use ab_glyph::{Font, Glyph, PxScale, point};
 use noisefloor_frame::Image;
 
 use crate::error::ReportError;
+use crate::picture::encode_rgb;
 use crate::plot::font::{self, Weight};
 
 /// A pair of pictures with its name.
@@ -40,7 +41,8 @@ pub fn contact_sheet(entries: &[SheetEntry], columns: usize) -> Result<Vec<u8>, 
             sheet.image(image, x + side * (width + GAP / 4), y + LINE, (width, height));
         }
     }
-    sheet.encode().map_err(|source| ReportError::Png { name: "contact sheet".into(), source })
+    encode_rgb(&sheet.rgb, sheet.width, sheet.height, None)
+        .map_err(|source| ReportError::Png { name: "contact sheet".into(), source })
 }
 
 /// White paper, interleaved RGB.
@@ -88,18 +90,6 @@ impl Sheet {
                 }
             });
         }
-    }
-
-    fn encode(&self) -> Result<Vec<u8>, png::EncodingError> {
-        let mut out = Vec::new();
-        let mut encoder = png::Encoder::new(&mut out, self.width as u32, self.height as u32);
-        encoder.set_color(png::ColorType::Rgb);
-        encoder.set_depth(png::BitDepth::Eight);
-        encoder.set_compression(png::Compression::High);
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&self.rgb)?;
-        writer.finish()?;
-        Ok(out)
     }
 }
 

@@ -15,3 +15,6 @@ mod tests;
 pub use card::CITATION;
 pub use method::{ENTRY, VirtualFlash};
 pub use params::{GuideKind, Params, SpreadKind, TestKind};
+
+/// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.
+pub const README: &str = include_str!("../README.md");
