@@ -10,7 +10,7 @@ mod text;
 
 use std::path::Path;
 
-use anyhow::bail;
+use anyhow::{Context as _, bail};
 use noisefloor_frame::{Finding, Image};
 use noisefloor_io::{ReadOptions, read_color, read_reference};
 use noisefloor_metrics::{Measured, Measurer, trimmed_count};
@@ -40,7 +40,7 @@ pub fn run(args: &Compare) -> anyhow::Result<Exit> {
     let plan = maps::plan(args)?;
     // The sample count of a reference plays no part here, so a file without one is fine.
     let reference = read_reference(&args.reference, &ReadOptions { spp: Some(1) })?;
-    let measurer = Measurer::new(&reference, None)?;
+    let measurer = Measurer::new(&reference, None).with_context(|| args.reference.display().to_string())?;
     let mean = reference.mean();
     let mut all = Vec::new();
     for path in &args.images {
@@ -56,11 +56,9 @@ pub fn run(args: &Compare) -> anyhow::Result<Exit> {
                 mean.height()
             );
         }
-        let measured = measurer.measure(&image)?;
-        if measured.pixels == 0 {
-            let (test, reference) = (path.display(), args.reference.display());
-            bail!("{test} and {reference} have no pixel that is finite in both");
-        }
+        let measured = measurer
+            .measure(&image)
+            .with_context(|| format!("{} against {}", path.display(), args.reference.display()))?;
         let findings = findings::of_pair(path, &measured);
         all.push(Compared { path, image, measured, findings, map: None });
     }
