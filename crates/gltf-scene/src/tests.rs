@@ -89,7 +89,7 @@ fn refused(spoil: impl FnOnce(&mut Value)) -> String {
 
 #[test]
 fn a_textured_square_has_its_colours_its_place_and_its_camera() {
-    let Loaded { scene, notices } = load_json(&square()).unwrap();
+    let Loaded { scene, notices, .. } = load_json(&square()).unwrap();
     assert_eq!(scene.id, "quad");
     assert_eq!(scene.meshes[0].positions[2], Vec3::new(2.0, 2.0, -3.0));
     assert_eq!(scene.camera.eye, Vec3::new(0.0, 0.0, -2.0));
@@ -124,7 +124,7 @@ fn an_emissive_square_that_fills_the_view_shows_exactly_its_emission() {
         "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 4.0 } },
         "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0 }
     }]);
-    let Loaded { scene, notices } = load_json(&value).unwrap();
+    let Loaded { scene, notices, .. } = load_json(&value).unwrap();
     assert!(notices.is_empty(), "{notices:?}");
     let prepared = Prepared::new(&scene).unwrap();
     let mut request = RenderRequest::new(&prepared, 16, 16, 4);
