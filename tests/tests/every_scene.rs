@@ -30,6 +30,7 @@ fn every_scene_can_be_studied_by_its_name() {
             out_dir: folder.path(),
             cache_dir: cache.path(),
             size: Some((20, 15)),
+            again: &[],
             command: String::new(),
             simd: String::new(),
             observer: &Silent,

@@ -14,6 +14,7 @@ fn run_study(text: &str) -> (tempfile::TempDir, Summary) {
         out_dir: &folder.path().join("out"),
         cache_dir: &folder.path().join("cache"),
         size: None,
+        again: &[],
         command: String::new(),
         simd: String::new(),
         observer: &Silent,

@@ -59,7 +59,7 @@ impl Default for Verb {
 #[derive(Debug, Default, clap::Args)]
 #[command(
     after_help = "Examples:\n  noisefloor run quick\n  noisefloor run quick --size 320x240 --out /tmp/quick\n  \
-    noisefloor run vfi-table1 --threads 8\n  noisefloor run my-study.toml --cache /big/cache\n  \
+    noisefloor run vfi-table1 --threads 8\n  noisefloor run quick --again rdfc     its cells once more\n  noisefloor run my-study.toml --cache /big/cache\n  \
     noisefloor run frames/            somebody else's frames: spp0004.exr …, reference.exr\n  \
     noisefloor run rings --integrator photon-mapping    one scene\n  \
     noisefloor run my-scene.glb                         your own scene"
@@ -77,6 +77,9 @@ pub struct Run {
     /// Folder for rendered frames, shared by all studies [default: the user's cache folder]
     #[arg(long, value_name = "DIR")]
     pub cache: Option<PathBuf>,
+    /// Run the cells of this row again although they are finished: a label or a method id; repeatable
+    #[arg(long, value_name = "METHOD")]
+    pub again: Vec<String>,
     /// Threads for rendering and denoising [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
@@ -278,10 +281,14 @@ pub struct Convert {
 /// `noisefloor report`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  noisefloor report noisefloor-results/quick\n  \
-    noisefloor report noisefloor-results/quick --recompute")]
+    noisefloor report noisefloor-results/quick --recompute\n  \
+    noisefloor report /mnt/read-only/quick --out quick-report")]
 pub struct Report {
     /// Folder of a study that was run
     pub dir: PathBuf,
+    /// Folder for summary and report instead of that one, which is then only read
+    #[arg(long, value_name = "OTHER")]
+    pub out: Option<PathBuf>,
     /// Compute the metrics again from the kept images instead of taking them from the records
     #[arg(long)]
     pub recompute: bool,

@@ -57,7 +57,10 @@ impl Exit {
         // Names on the command line that nothing has; in a study file they are an error of the file.
         let unknown = error.is::<BuildError>()
             || error.is::<UnknownScene>()
-            || matches!(error.downcast_ref(), Some(HarnessError::UnknownStudy { .. }));
+            || matches!(
+                error.downcast_ref(),
+                Some(HarnessError::UnknownStudy { .. } | HarnessError::NoRow { .. })
+            );
         if unknown { Self::Usage } else { Self::Failed }
     }
 }

@@ -11,10 +11,11 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
     if !(args.viewer_budget.is_finite() && args.viewer_budget >= 0.0) {
         bail!("--viewer-budget is {}, expected a size in MB from 0", args.viewer_budget);
     }
-    let summary = noisefloor_harness::reanalyse(&args.dir, args.recompute)?;
+    let out = args.out.as_deref().unwrap_or(&args.dir);
+    let summary = noisefloor_harness::reanalyse_into(&args.dir, out, args.recompute)?;
     let options =
         ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
-    let files = noisefloor_report::write_report_with(&args.dir, &summary, &options)?;
+    let files = noisefloor_report::write_report_into(&args.dir, out, &summary, &options)?;
     say!(Out::Stdout, "report: {}", files.index.display())?;
     Ok(Exit::Done)
 }

@@ -36,6 +36,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
         out_dir: &out,
         cache_dir: &cache,
         size: args.size.map(|s| (s.width, s.height)),
+        again: &args.again,
         command: command(args),
         simd: noisefloor_kernels::Level::best().name().to_owned(),
         observer: &watcher,

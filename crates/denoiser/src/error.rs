@@ -46,6 +46,19 @@ pub enum DenoiseError {
     },
 }
 
+impl DenoiseError {
+    /// What kind of error it is, without its wording and numbers: a stable name.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::MissingInputs { .. } => "missing-inputs",
+            Self::Frame(_) => "frame",
+            Self::Undefined { .. } => "undefined",
+            Self::Parameter { .. } => "parameter",
+        }
+    }
+}
+
 fn list(needs: &[Need]) -> String {
     needs.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
 }

@@ -102,6 +102,8 @@ pub enum FindingKind {
     UnreadLayer,
     /// Values of an output that are not finite. Value: how many.
     NonFiniteOutput,
+    /// A kept file or record of a study that is not what was written; what needs it is left out.
+    DamagedFile,
     /// The program was built without optimisation: times mean nothing.
     DebugBuild,
 }
@@ -138,6 +140,7 @@ impl FindingKind {
             | Self::HalvesDropped
             | Self::InvalidPixels
             | Self::NonFiniteOutput
+            | Self::DamagedFile
             | Self::InvalidFeature => Severity::Limitation,
             Self::LayerLeftOut | Self::UnreadLayer | Self::DebugBuild => Severity::Notice,
         }

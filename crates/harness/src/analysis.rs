@@ -2,6 +2,7 @@
 //! first.
 
 mod bounds;
+mod builds;
 mod cells;
 mod compare;
 mod convergence;
@@ -54,6 +55,7 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
     };
     summary.warnings = warnings::warnings(&index, &summary);
     summary.warnings.extend(sequences.problems);
+    summary.warnings.extend(builds::warning(records));
     summary
 }
 

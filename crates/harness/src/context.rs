@@ -1,11 +1,12 @@
 //! What an analysis must know beside the records; kept in the study's folder.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_frame::{Finding, Sampling};
 use serde::{Deserialize, Serialize};
 
 use crate::cache::Key;
+use crate::store::Files;
 use crate::summary::{Environment, MethodSummary};
 
 /// The run that made the records.
@@ -41,6 +42,12 @@ pub(crate) struct SceneContext {
     /// Pixel classes in the order of the class image's indices, with their pixel counts.
     pub(crate) classes: Vec<(String, u64)>,
     pub(crate) reference: ReferenceContext,
+    /// The scene's kept files and their hashes.
+    #[serde(default, skip_serializing_if = "Files::is_empty")]
+    pub(crate) files: Files,
+    /// Those of them that are not what was written; known to who has looked.
+    #[serde(skip)]
+    pub(crate) damaged: BTreeSet<String>,
     /// What was found about the scene's files or reference, apart from single frames.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) findings: Vec<Finding>,

@@ -64,6 +64,14 @@ pub enum HarnessError {
         /// What is wrong, with the nearest names.
         source: Box<BuildError>,
     },
+    /// No row of the study has this label or method.
+    #[error("no row is or runs `{name}`; the rows are {}", rows.join(", "))]
+    NoRow {
+        /// Name given.
+        name: String,
+        /// Labels of the rows.
+        rows: Vec<String>,
+    },
     /// A folder of frames cannot be used as a scene.
     #[error("{}: {reason}", path.display())]
     Folder {

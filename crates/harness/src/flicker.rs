@@ -40,6 +40,14 @@ pub(crate) fn measure(study: &Study, context: &Context, records: &[Record], root
         let ids: Vec<&str> = frames.iter().map(|scene| scene.id.as_str()).collect();
         // A study that was stopped has not come to all of them.
         let begun = ids.iter().all(|id| records.iter().any(|record| record.scene == *id));
+        let lost = context.scenes.iter().filter(|scene| ids.contains(&scene.id.as_str()));
+        let lost = lost.flat_map(|scene| scene.damaged.get(&Layout::reference(&scene.id))).next();
+        if let Some(reference) = lost {
+            out.problems.push(format!(
+                "sequence {name}: flicker is left out: {reference} is not what was written, or is gone"
+            ));
+            continue;
+        }
         match one_sequence(name, &ids, context, records, root) {
             Ok(found) if found.is_empty() && begun => out.problems.push(format!(
                 "sequence {name}: flicker is left out: no replicate of a row ran on all frames"

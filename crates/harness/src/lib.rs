@@ -13,6 +13,7 @@ mod analysis;
 mod cache;
 mod context;
 mod error;
+mod fingerprint;
 mod flicker;
 mod machine;
 mod measure;

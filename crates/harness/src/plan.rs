@@ -8,8 +8,9 @@ use serde_json::{Map, Value, json};
 
 use crate::cache::{Key, key_of};
 use crate::error::{HarnessError, Place};
+use crate::fingerprint::{Fingerprints, measuring};
 use crate::record::RECORD_SCHEMA;
-use crate::source::{FrameKind, FrameSpec, Scene};
+use crate::source::{FrameSpec, Scene};
 use crate::study::{RowFrames, SceneSpec, Study};
 
 /// A row ready to run.
@@ -19,6 +20,8 @@ pub(crate) struct Row {
     pub(crate) slug: String,
     pub(crate) method: Method,
     pub(crate) card: MethodCard,
+    /// Hash of what the method gives on fixed frames.
+    pub(crate) fingerprint: Key,
     pub(crate) frames: RowFrames,
 }
 
@@ -35,12 +38,13 @@ impl Plan {
         registry: &Registry,
         size: Option<(usize, usize)>,
     ) -> Result<Self, HarnessError> {
-        let rows = rows(study, registry, None)?;
+        let mut fingerprints = Fingerprints::default();
+        let rows = rows(study, registry, None, &mut fingerprints)?;
         let recorded = recorded(&rows);
         let mut scenes = Vec::new();
         for spec in &study.scenes {
             let mut scene = Scene::open(study, spec, size, &recorded)?;
-            scene.rows = self::rows(study, registry, Some(spec))?;
+            scene.rows = self::rows(study, registry, Some(spec), &mut fingerprints)?;
             scene.open_beside(study, spec, size, &recorded)?;
             scenes.push(scene);
         }
@@ -48,14 +52,18 @@ impl Plan {
         Ok(Self { scenes, rows })
     }
 
-    /// Content hash of all that determines the numbers of a cell.
+    /// Content hash of all that determines the numbers of a cell. Methods and metrics are in it by what they give, so that
+    /// neither a program that is built again nor one that gives other numbers is taken for the other.
     pub(crate) fn cell_key(&self, study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row) -> Key {
         let mut all = json!({
             "record": RECORD_SCHEMA,
-            "build": crate::machine::build_id(),
+            // What a record says it is of, even where two cells have equal frames.
+            "cell": json!([scene.id, frame.spp, frame.replicate]),
+            "measuring": measuring(),
             "frame": frame.key,
             "reference": scene.reference_key,
             "method": row.method.id,
+            "fingerprint": row.fingerprint,
             "params": row.method.params,
             "label": row.label,
             "coverage": study.coverage,
@@ -67,10 +75,6 @@ impl Plan {
         // Cells without neighbouring frames keep the keys that they had when there were none.
         if !beside.is_empty() {
             all["beside"] = json!(beside);
-        }
-        // One frame may stand beside several levels.
-        if let FrameKind::Samples(_) = frame.kind {
-            all["level"] = json!(frame.spp);
         }
         key_of(&all)
     }
@@ -100,7 +104,12 @@ fn same_sizes(study: &Study, scenes: &[Scene]) -> Result<(), HarnessError> {
 }
 
 /// The rows as they run on a scene, or with the study's own parameters.
-fn rows(study: &Study, registry: &Registry, scene: Option<&SceneSpec>) -> Result<Vec<Row>, HarnessError> {
+fn rows(
+    study: &Study,
+    registry: &Registry,
+    scene: Option<&SceneSpec>,
+    fingerprints: &mut Fingerprints,
+) -> Result<Vec<Row>, HarnessError> {
     let mut unused: BTreeSet<&String> = scene.iter().flat_map(|scene| scene.set.keys()).collect();
     let mut slugs = BTreeSet::new();
     let mut rows = Vec::new();
@@ -136,7 +145,9 @@ fn rows(study: &Study, registry: &Registry, scene: Option<&SceneSpec>) -> Result
             slug.push('_');
         }
         let card = method.denoiser.card();
-        rows.push(Row { label: row.label.clone(), slug, method, card, frames: row.frames.clone() });
+        let fingerprint = fingerprints.of(&method);
+        let (label, frames) = (row.label.clone(), row.frames.clone());
+        rows.push(Row { label, slug, method, card, fingerprint, frames });
     }
     if let (Some(name), Some(scene)) = (unused.into_iter().next(), scene) {
         return Err(HarnessError::Field {

@@ -1,16 +1,19 @@
 //! The analysis again, from what a study's folder keeps.
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
+use noisefloor_frame::{Finding, FindingKind, sorted_findings};
 use noisefloor_io::{ReadOptions, read_color, read_image, read_reference};
 use noisefloor_metrics::{Classes, Measurer, block_bootstrap};
 
 use crate::analysis::analyse;
 use crate::context::{Context, SceneContext};
 use crate::error::HarnessError;
+use crate::fingerprint::measuring;
 use crate::record::Record;
 use crate::source::PixelClasses;
-use crate::store::{Layout, Lock, Records, read_json, write_json};
+use crate::store::{Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
 use crate::study::Study;
 use crate::summary::Summary;
 
@@ -21,10 +24,12 @@ use crate::summary::Summary;
 /// and replaces them in the records. Coverage, bounds, estimates of a method's own error and times stay as they were
 /// recorded.
 ///
+/// Kept files that are not what was written, and lines of the records that cannot be read, are among
+/// [`Summary::findings`]; what needs them is left out.
+///
 /// # Errors
-/// [`HarnessError::Io`] or [`HarnessError::Kept`] if the folder is none of a study or a file of it is damaged,
-/// [`HarnessError::Image`] for an image that cannot be read, [`HarnessError::Locked`] if records are to be replaced while
-/// the study is running.
+/// [`HarnessError::Io`] or [`HarnessError::Kept`] if the folder is none of a study or its description is damaged,
+/// [`HarnessError::Locked`] if records are to be replaced while the study is running.
 pub fn reanalyse(dir: &Path, recompute: bool) -> Result<Summary, HarnessError> {
     reanalyse_into(dir, dir, recompute)
 }
@@ -43,24 +48,101 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
     // Records only ever grow, line by line: reading them needs no lock.
     let _lock = (here && recompute).then(|| Lock::take(&layout)).transpose()?;
     let mut context: Context = read_json(&layout.context())?;
-    for scene in &study.scenes {
-        let path = dir.join(Layout::scene(&scene.id));
-        if path.exists() {
-            context.scenes.push(read_json(&path)?);
-        }
+    let mut kept = Kept { dir, findings: Vec::new() };
+    context.scenes = study.scenes.iter().filter_map(|scene| kept.scene(&scene.id)).collect();
+    let found = Records::read(&layout.records())?;
+    for line in &found.damaged {
+        kept.tell(
+            format!("results.jsonl, line {}", line.line),
+            format!("{}: its cell is left out", line.why),
+        );
     }
-    let mut all = Records::read(&layout.records())?.records;
+    let mut all = found.records;
+    let damaged = kept.images(&all);
     if recompute {
         for scene in &context.scenes {
-            measure_again(dir, scene, all.iter_mut().filter(|record| record.scene == scene.id))?;
+            let whole = |record: &&mut Record| {
+                record.scene == scene.id && !record.image.as_ref().is_some_and(|path| damaged.contains(path))
+            };
+            measure_again(dir, scene, all.iter_mut().filter(whole))?;
         }
         if here {
-            Records::open(&layout.records())?.replace(all.clone())?;
+            replace(&layout, &all)?;
         }
     }
-    let summary = analyse(&study, &context, &all, dir);
+    for record in &mut all {
+        record.image.take_if(|path| damaged.contains(path));
+        record.diagnostics.retain(|_, path| !damaged.contains(path));
+    }
+    let mut summary = analyse(&study, &context, &all, dir);
+    summary.findings = sorted_findings(kept.findings.into_iter().chain(summary.findings));
     write_json(&Layout::new(out).summary(), &summary)?;
     Ok(summary)
+}
+
+/// Puts records with other numbers into the place of those that they were made from, which are set aside.
+fn replace(layout: &Layout, records: &[Record]) -> Result<(), HarnessError> {
+    let (mut old, _) = Records::open(&layout.records(), &layout.damaged())?;
+    let changed = old.all().iter().filter(|record| !records.contains(record)).cloned().collect();
+    Superseded::read(&layout.superseded())?.add(changed)?;
+    old.replace(records.to_vec())
+}
+
+/// Damaged images that are named one by one.
+const MOST_NAMED: usize = 8;
+
+/// Looks at kept files before they are used.
+struct Kept<'a> {
+    dir: &'a Path,
+    findings: Vec<Finding>,
+}
+
+impl Kept<'_> {
+    fn tell(&mut self, subject: String, text: String) {
+        let text = format!("{text}; a new run makes it again");
+        self.findings.push(Finding::new(FindingKind::DamagedFile, subject, text));
+    }
+
+    /// A scene's description without the files that are not what was written; `None` where there is none.
+    fn scene(&mut self, id: &str) -> Option<SceneContext> {
+        let description = Layout::scene(id);
+        let path = self.dir.join(&description);
+        if !path.exists() {
+            return None;
+        }
+        let mut scene: SceneContext = match read_json(&path) {
+            Ok(scene) => scene,
+            Err(error) => {
+                self.tell(description, format!("cannot be read ({error}): the scene is left out"));
+                return None;
+            }
+        };
+        for file in damaged(self.dir, &scene.files) {
+            let lost =
+                "is not what was written, or is gone: its picture and what is computed from it are left out";
+            scene.files.remove(&file);
+            scene.damaged.insert(file.clone());
+            self.tell(file, lost.into());
+        }
+        Some(scene)
+    }
+
+    /// The images of records that are not what was written, or gone.
+    fn images(&mut self, records: &[Record]) -> BTreeSet<String> {
+        let mut out = BTreeSet::new();
+        for record in records {
+            for path in record.paths().filter(|path| !whole(self.dir, path, &record.files)) {
+                out.insert(path.to_owned());
+            }
+        }
+        for path in out.iter().take(MOST_NAMED) {
+            self.tell(path.clone(), "is not what was written, or is gone: it is left out".into());
+        }
+        if let Some(more) = out.len().checked_sub(MOST_NAMED + 1) {
+            self.tell("images".into(), format!("{} more are not what was written, or are gone", more + 1));
+        }
+        out
+    }
 }
 
 /// Whether two paths lead to one folder; links are followed.
@@ -76,6 +158,10 @@ fn measure_again<'a>(
     scene: &SceneContext,
     records: impl Iterator<Item = &'a mut Record>,
 ) -> Result<(), HarnessError> {
+    if !scene.damaged.is_empty() {
+        // Told; the numbers stay as they were recorded.
+        return Ok(());
+    }
     let options = ReadOptions { spp: Some(1) };
     let reference = read_reference(dir.join(Layout::reference(&scene.id)), &options)?;
     let names: Vec<String> = scene.classes.iter().map(|(name, _)| name.clone()).collect();
@@ -88,6 +174,7 @@ fn measure_again<'a>(
         let Some(relative) = &record.image else { continue };
         let image = read_color(dir.join(relative))?;
         let measured = measurer.measure(&image).map_err(wrong)?;
+        record.measuring = measuring().to_owned();
         record.metrics = measured.values;
         (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
         record.classes = measured.classes;

@@ -33,9 +33,15 @@ pub enum Outcome {
 pub struct Record {
     /// [`RECORD_SCHEMA`] when written.
     pub schema: u32,
-    /// Content hash of all that determines the cell's numbers: frame, method, parameters, metric definitions, program
-    /// version.
+    /// Content hash of all that determines the cell's numbers: frame, truth, what the method and the measuring give on fixed
+    /// inputs, parameters. Not the program that ran it: one that gives the same numbers goes on where another stopped.
     pub cell: String,
+    /// Hash of the program that ran it; empty if it did not say so.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub build: String,
+    /// Hash of what the measuring that made the numbers gives on fixed inputs; empty if unknown.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub measuring: String,
     /// Study name.
     pub study: String,
     /// Scene id within the study.
@@ -119,6 +125,16 @@ pub struct Record {
     /// Diagnostic images, name to path relative to the study's folder.
     #[serde(default)]
     pub diagnostics: BTreeMap<String, String>,
+    /// Path of each of these images to the hash of its file, so that a damaged one is found.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub files: BTreeMap<String, String>,
+}
+
+impl Record {
+    /// The cell's image and diagnostic images, relative to the study's folder.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.image.iter().chain(self.diagnostics.values()).map(String::as_str)
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref)] // what serde asks for

@@ -3,6 +3,7 @@
 mod cell;
 mod denoise;
 mod prepare;
+mod settle;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -16,11 +17,12 @@ use crate::error::HarnessError;
 use crate::machine;
 use crate::observer::{Observer, Stage, Workload};
 use crate::plan::{Plan, Row};
-use crate::record::{Outcome, Record};
+use crate::record::Record;
 use crate::source::{FrameSpec, Scene};
 use crate::store::{Layout, Lock, Records, read_json, write_json};
 use crate::study::{SceneSource, Study};
 use crate::summary::{MethodSummary, Summary};
+use settle::Settled;
 
 /// Resampled images of the block bootstrap.
 pub(crate) const BOOTSTRAP_IMAGES: usize = 200;
@@ -44,6 +46,8 @@ pub struct StudyRun<'a> {
     pub cache_dir: &'a Path,
     /// Columns and rows of rendered and synthetic scenes, instead of the study's.
     pub size: Option<(usize, usize)>,
+    /// Labels of rows, or ids of methods, whose cells run again although they are finished.
+    pub again: &'a [String],
     /// Command line, for the report.
     pub command: String,
     /// Instruction set that the kernels chose, for the report.
@@ -66,30 +70,37 @@ impl std::fmt::Debug for StudyRun<'_> {
 /// Runs a study, or continues it: finished cells are kept, the others are run one after the other, each is on disk
 /// before the next begins. Ends with the analysis, written to `summary.json` and returned.
 ///
+/// Records that are of no use here, because study, size, a method or a metric changed, are set aside in the study's folder
+/// and used again when they are asked for again; so are those of [`StudyRun::again`]. Kept files that are not what was
+/// written are made again, and told.
+///
 /// A row whose inputs a frame does not have is skipped, one that ends in an error is failed; both are recorded with the
 /// reason and do not stop the study. A violated enclosure does not stop it either, but is the first of
 /// [`Summary::warnings`], see [`crate::violations`].
 ///
 /// # Errors
-/// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`] and [`HarnessError::Folder`] for names that do
-/// not exist, [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and
+/// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`], [`HarnessError::Folder`] and
+/// [`HarnessError::NoRow`] for names that do not exist, [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and
 /// [`HarnessError::Image`] for a full disk or an unwritable folder, [`HarnessError::Cancelled`]. Finished cells are
 /// intact after any of them.
 pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     let study = request.study;
     let plan = Plan::new(study, request.registry, request.size)?;
+    settle::check_again(request, &plan)?;
     let layout = Layout::new(request.out_dir);
     let _lock = Lock::take(&layout)?;
-    claim(&layout, study)?;
+    claim(&layout, study, request.observer)?;
     let cache = Cache::open(request.cache_dir)?;
-    let mut records = Records::open(&layout.records())?;
-    let kept = keep_finished(&mut records, &layout, study, &plan, request.observer)?;
+    layout.sweep();
+    let mut records = open_records(&layout, request.observer)?;
+    let Settled { kept, owners } = settle::settle(request, &layout, &plan, &mut records)?;
 
     let work = workload(study, &plan, &cache, &layout, &kept);
     let mut context = begin(request, &plan, &layout, &work)?;
     request.observer.planned(&work);
     for scene in &plan.scenes {
-        let runner = cell::Runner { request, plan: &plan, layout: &layout, cache: &cache, scene };
+        let runner =
+            cell::Runner { request, plan: &plan, layout: &layout, cache: &cache, scene, owners: &owners };
         context.scenes.push(runner.run(&mut records, &kept)?);
     }
     order(&mut records, study, &plan)?;
@@ -120,17 +131,18 @@ fn begin(
 }
 
 /// Refuses a folder that belongs to another study; writes the study into it.
-fn claim(layout: &Layout, study: &Study) -> Result<(), HarnessError> {
+fn claim(layout: &Layout, study: &Study, observer: &dyn Observer) -> Result<(), HarnessError> {
     let path = layout.study();
-    if path.exists() {
-        let found: Study = read_json(&path)?;
-        if found.name != study.name {
+    match name_there(layout)? {
+        Named::As(found) if found != study.name => {
             return Err(HarnessError::OtherStudy {
                 path: layout.root().to_owned(),
-                found: found.name,
+                found,
                 wanted: study.name.clone(),
             });
         }
+        Named::As(_) | Named::Nobody => {}
+        Named::Unreadable(why) => observer.warning(&format!("{}: {why}; written again", path.display())),
     }
     // Where a folder of frames stood on this machine says nothing elsewhere, and nothing here reads it again.
     let mut kept = study.clone();
@@ -142,36 +154,47 @@ fn claim(layout: &Layout, study: &Study) -> Result<(), HarnessError> {
     write_json(&path, &kept)
 }
 
-/// Keys of the finished cells. Records that the plan does not know any more, or whose image is gone, are dropped.
-fn keep_finished(
-    records: &mut Records,
-    layout: &Layout,
-    study: &Study,
-    plan: &Plan,
-    observer: &dyn Observer,
-) -> Result<BTreeSet<Key>, HarnessError> {
-    let planned: BTreeSet<Key> = cells(study, plan).map(|(_, key)| key).collect();
-    let mut kept = BTreeSet::new();
-    let mut keep = Vec::new();
-    let mut stale = 0;
-    for record in records.all() {
-        let whole =
-            record.image.iter().chain(record.diagnostics.values()).all(|p| layout.root().join(p).exists());
-        // A failure may have been that of another moment, such as too little memory: tried again.
-        let settled = !matches!(record.outcome, Outcome::Failed { .. });
-        if planned.contains(&record.cell) && whole && settled && kept.insert(record.cell.clone()) {
-            keep.push(record.clone());
-        } else {
-            stale += usize::from(!planned.contains(&record.cell));
-        }
-    }
-    if stale > 0 {
+/// The records so far. Lines that cannot be read are set aside and told; their cells run again.
+fn open_records(layout: &Layout, observer: &dyn Observer) -> Result<Records, HarnessError> {
+    let (records, damaged) = Records::open(&layout.records(), &layout.damaged())?;
+    for line in damaged {
         observer.warning(&format!(
-            "{stale} records are of another version of the study or the program, and are replaced"
+            "{}, line {}: {}; set aside in {}",
+            layout.records().display(),
+            line.line,
+            line.why,
+            file_name(&layout.damaged())
         ));
     }
-    records.replace(keep)?;
-    Ok(kept)
+    Ok(records)
+}
+
+/// A file's name without its folder, for a sentence that has named the folder.
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Whose folder it is.
+enum Named {
+    Nobody,
+    As(String),
+    /// The study's description is damaged, and there is no record that would tell.
+    Unreadable(String),
+}
+
+/// The study that a folder belongs to: what its description says, else what its records say.
+fn name_there(layout: &Layout) -> Result<Named, HarnessError> {
+    match read_json::<Study>(&layout.study()) {
+        Ok(study) => Ok(Named::As(study.name)),
+        Err(HarnessError::Io { source, .. }) if source.kind() == std::io::ErrorKind::NotFound => {
+            Ok(Named::Nobody)
+        }
+        Err(HarnessError::Kept { message, .. }) => {
+            let record = Records::read(&layout.records())?.records.into_iter().next();
+            Ok(record.map_or(Named::Unreadable(message), |record| Named::As(record.study)))
+        }
+        Err(other) => Err(other),
+    }
 }
 
 /// All cells in plan order.

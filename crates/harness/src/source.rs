@@ -13,14 +13,15 @@ use serde_json::json;
 
 use crate::cache::{Cache, Key, key_of, seed_of};
 use crate::error::HarnessError;
+use crate::fingerprint::{self, Bits};
 use crate::observer::Observer;
 use crate::plan::Row;
 use crate::study::{AdaptiveFrames, RowFrames, SceneSource, SceneSpec, Shot, Study};
 
 pub(crate) use classes::PixelClasses;
 use folder::Imported;
-use rendered::Rendered;
 pub(crate) use rendered::fresh_maps;
+use rendered::{PROBE, PROBE_SPP, Rendered};
 
 /// A noisy frame that the plan asks for.
 #[derive(Debug, Clone, PartialEq)]
@@ -241,13 +242,12 @@ fn synthetic(
         None => scene.clone(),
     };
     let description = serde_json::to_value(&scene).unwrap_or_default();
+    let (drawn, truth) = synthetic_probes(&scene);
     // Frames of a sequence have random numbers of their own.
     let frame = spec.shot.frame;
     let identity = if frame == 0 { description.clone() } else { json!([description, frame]) };
     let frames = frame_specs(study, spec, &identity, |spp, seed| {
-        key_of(&json!({
-            "synthetic": description, "version": env!("CARGO_PKG_VERSION"), "spp": spp, "seed": seed
-        }))
+        key_of(&json!({ "synthetic": description, "drawn": drawn, "spp": spp, "seed": seed }))
     });
     let settings = BTreeMap::from([
         ("seed".to_owned(), study.seed.to_string()),
@@ -265,7 +265,7 @@ fn synthetic(
         sampling: Sampling::Independent,
         settings,
         frames,
-        reference_key: key_of(&json!({ "truth": description })),
+        reference_key: key_of(&json!({ "truth": description, "drawn": truth })),
         reference_spp: 0,
         reference_sampling: "exact".into(),
         rows: Vec::new(),
@@ -273,6 +273,18 @@ fn synthetic(
         beside: BTreeMap::new(),
         source: Source::Synthetic(scene),
     })
+}
+
+/// Hashes of a tiny frame of a synthetic scene and of its truth with the classes of its pixels: they change whenever other
+/// numbers are drawn.
+fn synthetic_probes(scene: &SyntheticScene) -> (Key, Key) {
+    let (width, height) = (scene.width().min(PROBE[0]), scene.height().min(PROBE[1]));
+    // Never larger than a size that is allowed.
+    let small = scene.resized(width, height).unwrap_or_else(|_| scene.clone());
+    let mut truth = Bits::of("truth");
+    truth.frame(&small.truth().frame);
+    PixelClasses::from(small.classes()).add_to(&mut truth);
+    (fingerprint::frame(&small.render(PROBE_SPP, 0)), truth.finish())
 }
 
 /// Random seed of a noisy frame.

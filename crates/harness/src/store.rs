@@ -1,15 +1,23 @@
 //! A study's folder: records, images, and what an analysis needs to work from them alone.
 
+mod kept;
 mod records;
+mod superseded;
+mod sweep;
 
-use std::fs::{File, TryLockError};
+use std::fs::{File, OpenOptions, TryLockError};
+use std::io::{Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::{Serialize, de::DeserializeOwned};
 
 use crate::error::HarnessError;
 
+pub(crate) use kept::{Files, damaged, hash_of, whole};
 pub(crate) use records::Records;
+pub(crate) use superseded::Superseded;
+pub(crate) use sweep::sweep;
 
 /// Paths inside a study's folder.
 #[derive(Debug, Clone)]
@@ -29,6 +37,16 @@ impl Layout {
     /// Finished cells, one JSON object per line.
     pub(crate) fn records(&self) -> PathBuf {
         self.root.join("results.jsonl")
+    }
+
+    /// Records that an earlier version of the study, a method or the metrics made, one JSON object per line.
+    pub(crate) fn superseded(&self) -> PathBuf {
+        self.root.join("results.superseded.jsonl")
+    }
+
+    /// Lines of the records that could not be read.
+    pub(crate) fn damaged(&self) -> PathBuf {
+        self.root.join("results.damaged.jsonl")
     }
 
     /// The study as it was resolved.
@@ -71,6 +89,14 @@ impl Layout {
         format!("diagnostics/{scene}/{slug}/spp{spp:05}-r{replicate}-{name}.exr")
     }
 
+    /// Removes what killed processes left half written in the folders of a study, and nothing in others that stand beside
+    /// them; for whoever holds the lock.
+    pub(crate) fn sweep(&self) {
+        for (folder, depth) in [("", 0), ("reference", 0), ("images", 2), ("diagnostics", 2), ("report", 1)] {
+            sweep(&self.root.join(folder), depth, Duration::ZERO);
+        }
+    }
+
     /// Absolute path of a relative one, its folder made if need be.
     pub(crate) fn ready(&self, relative: &str) -> Result<PathBuf, HarnessError> {
         let path = self.root.join(relative);
@@ -98,6 +124,37 @@ impl Lock {
             Err(TryLockError::Error(source)) => Err(HarnessError::Io { action: "lock", path, source }),
         }
     }
+}
+
+/// Appends whole lines; they are on disk when this returns. A torn line at the end of the file stays a line of its own.
+fn append_lines(path: &Path, lines: impl IntoIterator<Item = Vec<u8>>) -> Result<(), HarnessError> {
+    let wrong = || HarnessError::io("write", path);
+    let mut file = OpenOptions::new()
+        .create(true)
+        .read(true)
+        .append(true)
+        .open(path)
+        .map_err(HarnessError::io("write", path))?;
+    let mut bytes = Vec::new();
+    if file.seek(SeekFrom::End(0)).map_err(wrong())? > 0 {
+        let mut last = [0];
+        file.seek(SeekFrom::End(-1)).map_err(wrong())?;
+        file.read_exact(&mut last).map_err(wrong())?;
+        if last != *b"\n" {
+            bytes.push(b'\n');
+        }
+    }
+    for line in lines {
+        bytes.extend(line);
+        bytes.push(b'\n');
+    }
+    file.write_all(&bytes).map_err(wrong())?;
+    file.sync_all().map_err(wrong())?;
+    // The folder's entry, too, where the platform can: what comes next removes the only other copy.
+    if let Some(folder) = path.parent().and_then(|folder| File::open(folder).ok()) {
+        let _ = folder.sync_all();
+    }
+    Ok(())
 }
 
 /// Writes a file so that it appears whole or not at all, and is on disk when this returns.

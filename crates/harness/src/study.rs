@@ -42,7 +42,7 @@ pub struct Study {
     pub spp: Vec<u32>,
     /// Independent replicates per level.
     pub replicates: Replicates,
-    /// Columns of rendered and synthetic scenes.
+    /// Columns of rendered scenes, and of synthetic ones that do not state theirs.
     pub width: usize,
     /// Rows.
     pub height: usize,

@@ -70,8 +70,7 @@ pub(crate) fn of_frame(
     }
     put("seed", provenance.seed.map(integer));
     put("filter", provenance.filter.map(|filter| text(filter.name())));
-    put("renderSeconds", provenance.render_seconds.map(AttributeValue::F64));
-    put("renderThreads", provenance.render_threads.map(|n| integer(n.into())));
+    // Not how long rendering took, nor on how many threads: equal frames are equal files.
     if let Some(camera) = &provenance.camera {
         check_camera(file, camera)?;
         let mut matrix = [0.0; 16];

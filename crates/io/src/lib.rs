@@ -9,8 +9,9 @@
 //!
 //! Header attributes: `scene`, `renderer`, `integrator`, `sampler` (text), `seed` (int, or text above 2³¹−1), `spp` (int, or
 //! the mean as double), `sppHalfA` where it is not ⌈spp/2⌉, `sampling` (`independent` or `low-discrepancy`), `filter` (`box`
-//! or `point`), `cameraToWorld` (m44f: row by row for column vectors, last row 0 0 0 1), `verticalFov` (degrees),
-//! `renderSeconds`, `renderThreads`, and anything else as text under its own name.
+//! or `point`), `cameraToWorld` (m44f: row by row for column vectors, last row 0 0 0 1), `verticalFov` (degrees), and
+//! anything else as text under its own name. `renderSeconds` and `renderThreads` are read and not written: what a clock
+//! said is no part of a frame, and equal frames are equal files.
 //!
 //! Numbers round-trip bit for bit. Writes are atomic. Files may come from strangers: whatever is in them, reading
 //! ends in a frame or in an [`IoError`] that names file, layer and channel.

@@ -28,6 +28,21 @@ fn a_frame_with_everything_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn how_long_a_frame_took_is_no_part_of_its_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = |name: &str, frame: &Frame| {
+        let path = folder.path().join(name);
+        write_frame(&path, frame).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let frame = full_frame(5, 4);
+    let mut slow = frame.clone();
+    slow.provenance.render_seconds = Some(12.5);
+    slow.provenance.render_threads = Some(64);
+    assert!(bytes("a.exr", &frame) == bytes("b.exr", &slow));
+}
+
+#[test]
 fn an_image_large_enough_for_the_thread_pool_comes_back() {
     let frame = Frame::from_color(estimate(320, 300, 3, 5), Samples::uniform(7), Sampling::Independent);
     assert_same_frame(&frame, &there_and_back(&frame));

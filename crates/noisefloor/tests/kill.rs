@@ -109,3 +109,78 @@ fn a_killed_study_continues_and_loses_at_most_the_cell_it_was_at() {
         assert!(read("whole") == read("killed"), "{image} differs");
     }
 }
+
+const TWELVE: &str = r#"
+name = "twelve"
+spp = [2, 4, 8]
+replicates = 2
+width = 40
+height = 30
+timing = { warmup = 0, runs = 1 }
+
+[[scene]]
+id = "steps"
+synthetic = { image = "edges", law = "exponential" }
+
+[[method]]
+id = "mc"
+
+[[method]]
+id = "geometric-corrected"
+"#;
+
+/// Runs a program on the study in `folder` and tells of its records.
+fn run_with(program: &Path, folder: &Path) -> Child {
+    Command::new(program)
+        .args(["run", "study.toml", "--threads", "1", "--out", "out", "--cache", "cache"])
+        .current_dir(folder)
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap()
+}
+
+#[test]
+fn a_changed_study_that_is_killed_and_a_program_that_is_built_again_lose_no_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |text: &str| std::fs::write(folder.path().join("study.toml"), text).unwrap();
+    let ours = Path::new(env!("CARGO_BIN_EXE_noisefloor"));
+    write(TWELVE);
+    finish(run_with(ours, folder.path()));
+    let first = whole_lines(folder.path(), "out");
+    assert_eq!(first.len(), 12);
+
+    // Another width, killed at several moments, until it is done.
+    for milliseconds in [0, 20, 60, 150, 400] {
+        write(&TWELVE.replace("width = 40", "width = 41"));
+        let mut child = run_with(ours, folder.path());
+        std::thread::sleep(Duration::from_millis(milliseconds));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        write(TWELVE);
+        finish(run_with(ours, folder.path()));
+        // Bit for bit, times included: nothing ran again.
+        assert_eq!(whole_lines(folder.path(), "out"), first, "killed after {milliseconds} ms");
+    }
+
+    // The same program with one byte more, and the first one again.
+    let rebuilt = folder.path().join("rebuilt");
+    let mut bytes = std::fs::read(ours).unwrap();
+    bytes.push(0);
+    std::fs::write(&rebuilt, bytes).unwrap();
+    std::fs::set_permissions(&rebuilt, std::fs::metadata(ours).unwrap().permissions()).unwrap();
+    for program in [rebuilt.as_path(), ours] {
+        finish(run_with(program, folder.path()));
+        assert_eq!(whole_lines(folder.path(), "out"), first);
+    }
+
+    // What the other program adds stands beside them, and the report says so.
+    write(&TWELVE.replace("replicates = 2", "replicates = 3"));
+    finish(run_with(&rebuilt, folder.path()));
+    assert_eq!(whole_lines(folder.path(), "out").len(), 18);
+    let summary = std::fs::read_to_string(folder.path().join("out/summary.json")).unwrap();
+    assert!(summary.contains("rows come from 2 builds of the program"));
+    write(TWELVE);
+    finish(run_with(ours, folder.path()));
+    assert_eq!(whole_lines(folder.path(), "out"), first);
+}

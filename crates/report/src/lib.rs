@@ -20,4 +20,4 @@ mod write;
 pub use error::ReportError;
 pub use picture::{NON_FINITE_COLOR, Picture, error_picture, picture};
 pub use sheet::{SheetEntry, contact_sheet};
-pub use write::{ReportFiles, ReportOptions, write_report, write_report_with};
+pub use write::{ReportFiles, ReportOptions, write_report, write_report_into, write_report_with};

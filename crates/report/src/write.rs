@@ -75,6 +75,19 @@ pub fn write_report_with(
     summary: &Summary,
     options: &ReportOptions,
 ) -> Result<ReportFiles, ReportError> {
+    write_report_into(dir, dir, summary, options)
+}
+
+/// Like [`write_report_with`], with the report in another folder, `out/report`: the study's folder `dir` is only read.
+///
+/// # Errors
+/// As [`write_report_with`].
+pub fn write_report_into(
+    dir: &Path,
+    out: &Path,
+    summary: &Summary,
+    options: &ReportOptions,
+) -> Result<ReportFiles, ReportError> {
     let read = |path: &Path| -> Result<Image, String> {
         let file = dir.join(path);
         // A file with colour may be a whole frame; anything else is a plain image.
@@ -82,7 +95,7 @@ pub fn write_report_with(
             .or_else(|_| noisefloor_io::read_image(&file))
             .map_err(|e| e.to_string())
     };
-    write_from(dir, summary, options, &read)
+    write_from(out, summary, options, &read)
 }
 
 /// Like [`write_report_with`], with images from anywhere.

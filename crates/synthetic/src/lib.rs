@@ -7,6 +7,8 @@
 //! Random numbers come from a counter: the same seed gives the same bits for any number of threads, and a
 //! frame of n samples is made of the first n samples of a larger one.
 //!
+//! [`hard_cases`] are such frames with something broken.
+//!
 //! ```
 //! use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 //!
@@ -17,9 +19,11 @@
 //! # Ok::<(), noisefloor_synthetic::SyntheticError>(())
 //! ```
 
+mod broken;
 mod classes;
 mod error;
 mod features;
+mod hard;
 mod law;
 mod mean;
 mod random;
@@ -28,6 +32,7 @@ mod scene;
 
 pub use classes::Classes;
 pub use error::SyntheticError;
+pub use hard::{HardCase, hard_case, hard_cases};
 pub use law::SampleLaw;
 pub use mean::{ImageKind, MeanImage};
-pub use scene::{Guides, SyntheticScene};
+pub use scene::{Guides, SyntheticScene, SyntheticSpec};

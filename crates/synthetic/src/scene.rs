@@ -169,6 +169,35 @@ impl SyntheticScene {
     }
 }
 
+/// A scene as a study file describes it, whose size may be left to the study.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "Description")]
+pub struct SyntheticSpec {
+    scene: SyntheticScene,
+    width: Option<usize>,
+    height: Option<usize>,
+}
+
+impl SyntheticSpec {
+    /// The scene; a side that the description does not state is that of `size`, or the default.
+    ///
+    /// # Errors
+    /// [`SyntheticError::OutOfRange`] if a side is 0 or above 65536.
+    pub fn scene(&self, size: Option<(usize, usize)>) -> Result<SyntheticScene, SyntheticError> {
+        let (width, height) = size.unwrap_or(SyntheticScene::SIZE);
+        self.scene.resized(self.width.unwrap_or(width), self.height.unwrap_or(height))
+    }
+}
+
+impl TryFrom<Description> for SyntheticSpec {
+    type Error = SyntheticError;
+
+    fn try_from(description: Description) -> Result<Self, SyntheticError> {
+        let (width, height) = (description.width, description.height);
+        Ok(Self { scene: description.try_into()?, width, height })
+    }
+}
+
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 enum LawName {
@@ -317,6 +346,20 @@ mod tests {
         let scene = parse("image = \"edges\"\nlaw = \"gaussian\"\nsd = 0.25").unwrap();
         assert_eq!(scene.law(), SampleLaw::Gaussian { sd: 0.25, relative: false });
         assert_eq!((scene.width(), scene.height()), SyntheticScene::SIZE);
+    }
+
+    #[test]
+    fn a_side_that_is_not_stated_is_that_of_the_study() {
+        let size = |sides: &str, of_study| {
+            let text = format!("image = \"edges\"\nlaw = \"gaussian\"\n{sides}");
+            let spec: SyntheticSpec = toml::from_str(&text).unwrap();
+            let scene = spec.scene(of_study).unwrap();
+            (scene.width(), scene.height())
+        };
+        assert_eq!(size("", Some((5, 3))), (5, 3));
+        assert_eq!(size("width = 7", Some((5, 3))), (7, 3));
+        assert_eq!(size("width = 7\nheight = 8", Some((5, 3))), (7, 8));
+        assert_eq!(size("height = 8", None), (SyntheticScene::SIZE.0, 8));
     }
 
     #[test]

@@ -12,12 +12,10 @@
 //! # Ok::<(), String>(())
 //! ```
 
-mod broken;
 mod conformance;
-mod hard;
 mod tolerance;
 
 pub use conformance::{Survival, check_method};
-pub use hard::{HardCase, hard_case, hard_cases};
 pub use noisefloor_synthetic as synthetic;
+pub use noisefloor_synthetic::{HardCase, hard_case, hard_cases};
 pub use tolerance::Tolerance;

@@ -67,7 +67,9 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
         settings: scene.settings.clone(),
         reference: reference(scene),
         classes: scene.classes.iter().filter(|(_, pixels)| *pixels > 0).cloned().collect(),
-        reference_image: Layout::reference(&scene.id),
+        reference_image: Some(Layout::reference(&scene.id))
+            .filter(|path| !scene.damaged.contains(path))
+            .unwrap_or_default(),
         render_seconds,
         images,
         diagnostics,

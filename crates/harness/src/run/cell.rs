@@ -10,16 +10,18 @@ use noisefloor_metrics::{Measurer, MetricError, block_bootstrap};
 use crate::cache::{Cache, Key};
 use crate::context::SceneContext;
 use crate::error::HarnessError;
+use crate::fingerprint::measuring;
 use crate::machine;
 use crate::measure::{Measure, ratio_within_se};
 use crate::observer::Stage;
 use crate::plan::{Plan, Row, wants_diagnostics};
 use crate::record::{AdaptiveRecord, NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
 use crate::run::denoise::{Denoised, denoise};
-use crate::run::prepare::{kept_context, truth};
+use crate::run::prepare::{damaged_files, kept_context, truth};
+use crate::run::settle::Owners;
 use crate::run::{BOOTSTRAP_IMAGES, StudyRun, bootstrap_seed};
 use crate::source::{FrameKind, FrameSpec, Scene};
-use crate::store::{Layout, Records};
+use crate::store::{Layout, Records, hash_of};
 use crate::study::Study;
 
 /// Runs the cells of a scene.
@@ -29,6 +31,7 @@ pub(super) struct Runner<'a> {
     pub(super) layout: &'a Layout,
     pub(super) cache: &'a Cache,
     pub(super) scene: &'a Scene,
+    pub(super) owners: &'a Owners,
 }
 
 impl Runner<'_> {
@@ -44,6 +47,10 @@ impl Runner<'_> {
             && let Some(context) = kept_context(self.layout, scene)
         {
             return Ok(context);
+        }
+        for file in damaged_files(self.layout, scene) {
+            let text = format!("{file} is not what was written or is gone; it is written again");
+            self.request.observer.warning(&text);
         }
         let (truth, context) = truth(scene, self.cache, self.layout, self.request.observer)?;
         let measurer = truth.measurer(scene)?;
@@ -101,6 +108,8 @@ impl Runner<'_> {
         Record {
             schema: RECORD_SCHEMA,
             cell: key,
+            build: machine::build_id(),
+            measuring: measuring().to_owned(),
             study: self.request.study.name.clone(),
             scene: self.scene.id.clone(),
             sampling,
@@ -131,6 +140,7 @@ impl Runner<'_> {
             peak_memory_bytes: None,
             image: None,
             diagnostics: BTreeMap::new(),
+            files: BTreeMap::new(),
         }
     }
 
@@ -262,8 +272,7 @@ impl Cell<'_> {
         }
 
         let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);
-        self.write(&relative, &image)?;
-        record.image = Some(relative);
+        record.image = Some(self.write(relative, &image, record)?);
         let mut diagnostics = done.diagnostics;
         if matches!(spec.kind, FrameKind::Adaptive(_)) && wants_diagnostics(self.runner.request.study, spec) {
             diagnostics.push(("samples per pixel".into(), sample_counts(self.frame)));
@@ -272,15 +281,19 @@ impl Cell<'_> {
             let name_of_file: String =
                 name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
             let path = Layout::diagnostic(&scene.id, &row.slug, spec.spp, spec.replicate, &name_of_file);
-            self.write(&path, diagnostic)?;
+            let path = self.write(path, diagnostic, record)?;
             record.diagnostics.insert(name.clone(), path);
         }
         Ok(())
     }
 
-    fn write(&self, relative: &str, image: &Image) -> Result<(), HarnessError> {
-        let path = self.runner.layout.ready(relative)?;
-        Ok(noisefloor_io::write_image(AsRef::<Path>::as_ref(&path), image, &BTreeMap::new())?)
+    /// Writes an image of a record; returns its path.
+    fn write(&self, wanted: String, image: &Image, record: &mut Record) -> Result<String, HarnessError> {
+        let relative = self.runner.owners.path(wanted, &record.cell);
+        let path = self.runner.layout.ready(&relative)?;
+        noisefloor_io::write_image(AsRef::<Path>::as_ref(&path), image, &BTreeMap::new())?;
+        record.files.insert(relative.clone(), hash_of(&path)?);
+        Ok(relative)
     }
 }
 

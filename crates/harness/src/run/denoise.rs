@@ -1,11 +1,11 @@
 //! One method on one frame, alone: refused, warmed up, timed, checked.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use noisefloor_denoiser::{DenoiseError, Diagnostics, Input, Output, StageSeconds};
 use noisefloor_frame::Image;
 
+use crate::fingerprint::attempt;
 use crate::plan::Row;
 use crate::record::Outcome;
 use crate::study::Timing;
@@ -70,20 +70,13 @@ pub(super) fn denoise(
 /// Runs a method once. Errors and panics of a method end its cell, not the study.
 fn once(row: &Row, input: &Input<'_>) -> Result<Output, Outcome> {
     let failed = |reason: String| Outcome::Failed { reason };
-    // The method's state is not touched again after a panic unless by another cell, which fails on its own.
-    let output = match catch_unwind(AssertUnwindSafe(|| row.method.denoiser.denoise(input))) {
+    let output = match attempt(|| row.method.denoiser.denoise(input)) {
         Ok(Ok(output)) => output,
         Ok(Err(error @ DenoiseError::MissingInputs { .. })) => {
             return Err(Outcome::Skipped { reason: error.to_string() });
         }
         Ok(Err(error)) => return Err(failed(error.to_string())),
-        Err(panic) => {
-            let text = panic
-                .downcast_ref::<String>()
-                .cloned()
-                .or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
-            return Err(failed(format!("{} panicked: {}", row.method.id, text.unwrap_or_default())));
-        }
+        Err(panic) => return Err(failed(format!("{} panicked: {panic}", row.method.id))),
     };
     let target = &input.target.color.mean;
     if !output.image.same_shape(target) {

@@ -1,6 +1,6 @@
 //! Reference and pixel classes of a scene, kept in the study's folder so that an analysis needs nothing else.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_frame::{Reference, SquaredError};
 use noisefloor_metrics::{Classes, Measurer};
@@ -10,7 +10,7 @@ use crate::context::{ReferenceContext, SceneContext};
 use crate::error::HarnessError;
 use crate::observer::Observer;
 use crate::source::{PixelClasses, Scene};
-use crate::store::{Layout, read_json, write_json};
+use crate::store::{Files, Layout, damaged, hash_of, read_json, write_json};
 
 /// What cells of a scene are measured against.
 pub(super) struct Truth {
@@ -26,14 +26,27 @@ impl Truth {
     }
 }
 
-/// The scene's description from an earlier run, if its reference is still the right one and in place.
+/// The scene's description from an earlier run, if its reference is still the right one and its files are what was
+/// written.
 pub(super) fn kept_context(layout: &Layout, scene: &Scene) -> Option<SceneContext> {
-    let root = layout.root();
-    let kept: SceneContext = read_json(&root.join(Layout::scene(&scene.id))).ok()?;
-    let files = [Layout::reference(&scene.id), Layout::classes(&scene.id)];
-    let whole =
-        kept.reference.key == scene.reference_key && files.iter().all(|file| root.join(file).exists());
-    whole.then(|| SceneContext { replicates: scene.replicates(), settings: scene.settings.clone(), ..kept })
+    let kept: SceneContext = read_json(&layout.root().join(Layout::scene(&scene.id))).ok()?;
+    let right = kept.reference.key == scene.reference_key && !kept.files.is_empty();
+    (right && damaged(layout.root(), &kept.files).is_empty()).then(|| SceneContext {
+        replicates: scene.replicates(),
+        settings: scene.settings.clone(),
+        ..kept
+    })
+}
+
+/// The scene's kept files that should be the right ones and are not what was written.
+pub(super) fn damaged_files(layout: &Layout, scene: &Scene) -> Vec<String> {
+    let description = Layout::scene(&scene.id);
+    match read_json::<SceneContext>(&layout.root().join(&description)) {
+        Ok(kept) if kept.reference.key == scene.reference_key => damaged(layout.root(), &kept.files),
+        Err(HarnessError::Kept { .. }) => vec![description],
+        // Nothing there, or of another reference.
+        _ => Vec::new(),
+    }
 }
 
 /// Renders or reads the reference, and writes all that describes the scene.
@@ -52,7 +65,7 @@ pub(super) fn truth(
         *counts.entry(usize::from(class)).or_insert(0u64) += 1;
     }
     let named = truth.classes.names.iter().enumerate();
-    let context = SceneContext {
+    let mut context = SceneContext {
         id: scene.id.clone(),
         title: scene.title.clone(),
         about: scene.about.clone(),
@@ -74,13 +87,20 @@ pub(super) fn truth(
             floor: measurer.floor(),
             bias: measurer.bias(),
         },
+        files: Files::new(),
+        damaged: BTreeSet::new(),
         findings: Vec::new(),
     };
     // The parts stay in the cache: mean, variance and halves are what metrics are computed from.
     reference.parts.clear();
-    noisefloor_io::write_reference(layout.ready(&Layout::reference(&scene.id))?, &reference)?;
-    let map = truth.classes.to_image(scene.width, scene.height);
-    noisefloor_io::write_image(layout.ready(&Layout::classes(&scene.id))?, &map, &BTreeMap::new())?;
+    let (image, map) = (Layout::reference(&scene.id), Layout::classes(&scene.id));
+    noisefloor_io::write_reference(layout.ready(&image)?, &reference)?;
+    let indices = truth.classes.to_image(scene.width, scene.height);
+    noisefloor_io::write_image(layout.ready(&map)?, &indices, &BTreeMap::new())?;
+    for file in [image, map] {
+        let hash = hash_of(&layout.root().join(&file))?;
+        context.files.insert(file, hash);
+    }
     write_json(&layout.ready(&Layout::scene(&scene.id))?, &context)?;
     drop(measurer);
     Ok((truth, context))

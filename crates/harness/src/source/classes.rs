@@ -5,6 +5,7 @@ use std::path::Path;
 use noisefloor_frame::{Image, Reference, Variance, luminance};
 
 use crate::error::HarnessError;
+use crate::fingerprint::Bits;
 
 /// Relative step of luminance between neighbours that makes an edge.
 const EDGE_STEP: f64 = 0.1;
@@ -59,6 +60,14 @@ impl PixelClasses {
             })
             .collect();
         Self { names, of_pixel }
+    }
+
+    /// Adds names and classes to a hash.
+    pub(crate) fn add_to(&self, bits: &mut Bits) {
+        bits.number(self.names.len() as u64);
+        self.names.iter().for_each(|name| bits.text(name));
+        bits.number(self.of_pixel.len() as u64);
+        self.of_pixel.iter().for_each(|class| bits.number(u64::from(*class)));
     }
 
     /// As an image of indices, for the study's folder.

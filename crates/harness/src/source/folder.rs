@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{Frame, Reference};
-use noisefloor_io::{FrameFolder, ReadOptions, check_variance_scale, read_frame, read_reference};
+use noisefloor_io::{FileInfo, FrameFolder, ReadOptions, check_variance_scale, read_frame, read_reference};
 use serde_json::json;
 
 use crate::cache::{Key, key_of};
 use crate::error::HarnessError;
 use crate::observer::Observer;
 use crate::source::{FrameKind, FrameSpec, Scene, Source};
+use crate::store::hash_of;
 use crate::study::SceneSpec;
 
 /// The files of an imported scene.
@@ -42,7 +43,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
             spp: frame.spp,
             replicate,
             seed: frame.info.provenance.seed.unwrap_or(0),
-            key: file_key(&frame.path, &options)?,
+            key: file_key(&frame.path, &frame.info, &options)?,
         });
         files.insert((frame.spp, replicate), frame.path.clone());
     }
@@ -74,7 +75,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         sampling: folder.frames[0].info.sampling,
         settings,
         frames,
-        reference_key: file_key(&folder.reference, &options)?,
+        reference_key: file_key(&folder.reference, info, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
         reference_sampling: info.sampling.name().to_owned(),
         rows: Vec::new(),
@@ -84,9 +85,12 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
     })
 }
 
-fn file_key(path: &Path, options: &ReadOptions) -> Result<Key, HarnessError> {
-    let bytes = std::fs::read(path).map_err(HarnessError::io("read", path))?;
-    Ok(key_of(&json!({ "file": blake3::hash(&bytes).to_hex().as_str(), "spp": options.spp })))
+/// Hash of a file's bytes, and of what its header is taken to say: another reading of channel names is another frame.
+fn file_key(path: &Path, info: &FileInfo, options: &ReadOptions) -> Result<Key, HarnessError> {
+    Ok(key_of(&json!({
+        "file": hash_of(path)?, "spp": options.spp,
+        "read as": [json!(info.layers), json!(info.spp), json!(info.sampling)],
+    })))
 }
 
 impl Imported {

@@ -5,10 +5,10 @@ mod adaptive;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::sync::OnceLock;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
-use noisefloor_frame::{Estimate, Flash, Frame, Image, PixelFilter, Reference, Sampling};
+use noisefloor_frame::{Estimate, Frame, PixelFilter, Reference, Sampling};
 use noisefloor_render::{
     FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Record,
     RenderError, RenderRequest, render,
@@ -17,7 +17,8 @@ use serde_json::{Value, json};
 
 use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
 use crate::error::HarnessError;
-use crate::observer::{Observer, Stage};
+use crate::fingerprint::{self, Bits};
+use crate::observer::{Observer, Silent, Stage};
 use crate::plan::Row;
 use crate::source::{FrameKind, FrameSpec, PixelClasses, Scene, Source, frame_seed, frame_specs};
 use crate::study::{AdaptiveFrames, Maps, ReferenceSpec, SceneSource, SceneSpec, Shot, Study};
@@ -40,6 +41,10 @@ pub(super) struct Rendered {
     map_seed: u64,
     /// Those maps, made when they are first needed.
     shared: OnceLock<PhotonMaps>,
+    /// Small maps for probes.
+    sample: Option<PhotonMaps>,
+    /// Hashes of tiny frames in rounds, by what steers them.
+    in_rounds: Mutex<BTreeMap<String, Key>>,
     /// Everything that a sample's value depends on.
     look: Value,
     /// What tells the scene at this moment from others.
@@ -113,13 +118,14 @@ pub(super) fn open(
             depth,
             filter,
             sampling,
+            feature_hit: study.feature_hit,
             record: Record::Exactly(record.clone()),
             integrator: if maps { shot.integrator } else { Integrator::PathTracing },
             photons: if maps { sample.as_ref() } else { None },
-            ..RenderRequest::new(&prepared, 24, 18, 8)
+            ..RenderRequest::new(&prepared, PROBE[0], PROBE[1], PROBE_SPP)
         };
         let mut look = json!({
-            "scene": content_hash(&scene), "renderer": fingerprint(&probe)?,
+            "scene": content_hash(&scene), "renderer": fingerprint::frame(&render(&probe, &noisefloor_render::Silent)?),
             "width": width, "height": height, "depth": depth, "filter": filter, "sampling": sampling,
         });
         // Frames without features are the same for all, and those of before had no such choice.
@@ -151,6 +157,9 @@ pub(super) fn open(
             (key, seed)
         })
         .collect();
+    let reference_key = key_of(&json!({
+        "parts": parts.iter().map(|(key, _)| key).collect::<Vec<_>>(), "classes": classes_of_probe(&prepared)?,
+    }));
     let mut settings = vec![
         ("seed", study.seed.to_string()),
         ("path depth", study.depth.to_string()),
@@ -196,7 +205,7 @@ pub(super) fn open(
         sampling: study.sampling,
         settings,
         frames,
-        reference_key: key_of(&parts.iter().map(|(key, _)| key).collect::<Vec<_>>()),
+        reference_key,
         reference_spp: u64::from(reference.spp),
         reference_sampling: reference.sampling.name().to_owned(),
         rows: Vec::new(),
@@ -216,6 +225,8 @@ pub(super) fn open(
             shot,
             map_seed,
             shared: OnceLock::new(),
+            sample,
+            in_rounds: Mutex::default(),
             look: noisy,
             identity,
             study_seed: study.seed,
@@ -231,23 +242,20 @@ fn frame_identity(look: &Value, record: &BTreeMap<Quantity, Keep>, spp: u32, see
     })
 }
 
-/// Hash of the bits of a tiny frame: changes whenever the renderer gives other numbers, so that nobody has to remember
-/// to raise a version.
-fn fingerprint(probe: &RenderRequest<'_>) -> Result<String, HarnessError> {
-    let frame = render(probe, &noisefloor_render::Silent)?;
-    let mut hasher = blake3::Hasher::new();
-    let mut add = |image: &Image| {
-        image.data().iter().for_each(|v| {
-            hasher.update(&v.to_bits().to_le_bytes());
-        })
-    };
-    add(&frame.color.mean);
-    frame.features.values().for_each(|estimate| add(&estimate.mean));
-    if let Some(Flash::Parts { base, light, .. }) = &frame.flash {
-        add(&base.mean);
-        add(&light.mean);
+/// Size of the tiny frames whose bits stand for the renderer in keys: they change whenever it gives other numbers, in
+/// any plane that a frame carries, so that nobody has to remember to raise a version.
+pub(super) const PROBE: [usize; 2] = [24, 18];
+
+/// Their samples per pixel: more than two of the blocks that are merged into one.
+pub(super) const PROBE_SPP: u32 = 33;
+
+/// Hash of which pixels of a tiny image are of the scene's own classes.
+fn classes_of_probe(prepared: &Prepared) -> Result<Key, HarnessError> {
+    let mut bits = Bits::of("classes");
+    for class in noisefloor_render::pixel_classes(prepared, PROBE[0], PROBE[1])?.classes {
+        bits.text(class.name());
     }
-    Ok(hasher.finalize().to_hex()[..16].to_owned())
+    Ok(bits.finish())
 }
 
 /// Hash of a scene's description: plain data without random state, so its printed form tells it completely.
@@ -295,8 +303,32 @@ impl Rendered {
     pub(super) fn in_rounds(&self, frame: &FrameSpec, adaptive: AdaptiveFrames, row: &Row) -> FrameSpec {
         let mut all = frame_identity(&self.look, &self.record, frame.spp, frame.seed);
         all["adaptive"] = json!(adaptive);
-        all["method"] = json!([row.method.id, row.method.params, crate::machine::build_id()]);
+        all["method"] = json!([row.method.id, row.method.params, self.probe_in_rounds(adaptive, row)]);
         FrameSpec { key: key_of(&all), kind: FrameKind::Adaptive(adaptive), ..frame.clone() }
+    }
+
+    /// Hash of a tiny frame in rounds that the row steers: of renderer, density and sharing out together.
+    fn probe_in_rounds(&self, adaptive: AdaptiveFrames, row: &Row) -> Key {
+        let who = json!([adaptive, row.fingerprint]).to_string();
+        // A panic elsewhere leaves nothing half done in here.
+        let mut known = self.in_rounds.lock().unwrap_or_else(PoisonError::into_inner);
+        let probe = || {
+            let spp = adaptive.first.unwrap_or(0).min(64) + PROBE_SPP;
+            let request = RenderRequest {
+                width: PROBE[0],
+                height: PROBE[1],
+                integrator: self.shot.integrator,
+                photons: self.sample.as_ref(),
+                ..self.request(spp, 0, self.sampling, Record::Exactly(self.record.clone()))
+            };
+            let label = (spp, row.label.as_str());
+            match adaptive::render(&request, adaptive, label, row.method.denoiser.adaptive(), &Silent) {
+                Ok(frame) => fingerprint::frame(&frame),
+                // Told when a real frame is rendered.
+                Err(_) => "no density".to_owned(),
+            }
+        };
+        known.entry(who).or_insert_with(probe).clone()
     }
 
     pub(super) fn frame(
@@ -402,8 +434,8 @@ fn cached(
             observer.warning(&format!("{}: {why}; made again", path.display()));
         }
     }
-    let frame = make()?;
-    cache.put(key, &frame)?;
+    let mut frame = make()?;
+    cache.put(key, &mut frame)?;
     Ok(frame)
 }
 

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::HarnessError;
 use crate::record::{RECORD_SCHEMA, Record};
-use crate::store::write_whole;
+use crate::store::{append_lines, write_whole};
 
 /// `results.jsonl`: whole lines, appended and brought to disk one by one.
 #[derive(Debug)]
@@ -18,15 +18,40 @@ pub(crate) struct Records {
 #[derive(Debug)]
 pub(crate) struct Found {
     pub(crate) records: Vec<Record>,
-    /// Bytes of whole lines; what follows is the torn end of a line whose process died.
+    /// Whole lines that are no records.
+    pub(crate) damaged: Vec<Damaged>,
+    /// Whole lines that a newer program wrote: line from 1, and the schema it has.
+    newer: Option<(usize, u32)>,
+    /// Bytes of whole lines; what follows is the torn end of a line whose process died, or is being written.
     whole: u64,
     torn: bool,
 }
 
+/// A line that cannot be read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Damaged {
+    /// From 1.
+    pub(crate) line: usize,
+    bytes: Vec<u8>,
+    /// The parser's message.
+    pub(crate) why: String,
+}
+
+/// As much of a record as every program that writes one agrees on.
+#[derive(serde::Deserialize)]
+struct AnyRecord {
+    schema: u32,
+}
+
 impl Records {
-    /// Opens or begins a file, cutting off a torn last line.
-    pub(crate) fn open(path: &Path) -> Result<Self, HarnessError> {
+    /// Opens or begins a file. A torn last line is cut off; other lines that cannot be read are moved into the file
+    /// `aside`, and told.
+    pub(crate) fn open(path: &Path, aside: &Path) -> Result<(Self, Vec<Damaged>), HarnessError> {
         let found = Self::read(path)?;
+        // Set aside before they are removed.
+        if !found.damaged.is_empty() {
+            append_lines(aside, found.damaged.iter().map(|damaged| damaged.bytes.clone()))?;
+        }
         let file = OpenOptions::new()
             .create(true)
             .append(true)
@@ -35,34 +60,67 @@ impl Records {
         if found.torn {
             file.set_len(found.whole).map_err(HarnessError::io("write", path))?;
         }
-        Ok(Self { path: path.into(), file, all: found.records })
+        let mut records = Self { path: path.into(), file, all: found.records };
+        if !found.damaged.is_empty() {
+            records.rewrite()?;
+        }
+        Ok((records, found.damaged))
     }
 
-    /// Reads without changing anything. A missing file has no records.
+    /// Reads without changing anything, also while another process appends. A missing file has no records.
+    ///
+    /// # Errors
+    /// [`HarnessError::Kept`] for records of a newer program.
     pub(crate) fn read(path: &Path) -> Result<Found, HarnessError> {
+        let found = Self::scan(path)?;
+        match found.newer {
+            Some((line, schema)) => Err(HarnessError::Kept {
+                path: path.into(),
+                line: Some(line),
+                message: format!(
+                    "written by a newer program (record schema {schema}, this one knows {RECORD_SCHEMA})"
+                ),
+            }),
+            None => Ok(found),
+        }
+    }
+
+    /// Like [`Records::read`], with the records of a newer program left out.
+    pub(crate) fn scan(path: &Path) -> Result<Found, HarnessError> {
         let bytes = match std::fs::read(path) {
             Ok(bytes) => bytes,
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => Vec::new(),
             Err(e) => return Err(HarnessError::io("read", path)(e)),
         };
         let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |last| last + 1);
-        let mut records = Vec::new();
+        let mut found = Found {
+            records: Vec::new(),
+            damaged: Vec::new(),
+            newer: None,
+            whole: whole as u64,
+            torn: whole < bytes.len(),
+        };
         for (index, line) in bytes[..whole].split(|&b| b == b'\n').enumerate() {
             if line.iter().all(u8::is_ascii_whitespace) {
                 continue;
             }
-            let broken =
-                |message: String| HarnessError::Kept { path: path.into(), line: Some(index + 1), message };
-            let record: Record = serde_json::from_slice(line).map_err(|e| broken(e.to_string()))?;
-            if record.schema > RECORD_SCHEMA {
-                return Err(broken(format!(
-                    "written by a newer program (record schema {}, this one knows {RECORD_SCHEMA})",
-                    record.schema
-                )));
+            match serde_json::from_slice::<AnyRecord>(line) {
+                Ok(any) if any.schema > RECORD_SCHEMA => {
+                    found.newer.get_or_insert((index + 1, any.schema));
+                    continue;
+                }
+                _ => {}
             }
-            records.push(record);
+            match serde_json::from_slice(line) {
+                Ok(record) => found.records.push(record),
+                Err(error) => found.damaged.push(Damaged {
+                    line: index + 1,
+                    bytes: line.to_vec(),
+                    why: error.to_string(),
+                }),
+            }
         }
-        Ok(Found { records, whole: whole as u64, torn: whole < bytes.len() })
+        Ok(found)
     }
 
     /// All records in file order.
@@ -86,8 +144,13 @@ impl Records {
         if records == self.all {
             return Ok(());
         }
+        self.all = records;
+        self.rewrite()
+    }
+
+    fn rewrite(&mut self) -> Result<(), HarnessError> {
         let mut bytes = Vec::new();
-        for record in &records {
+        for record in &self.all {
             bytes.extend(line_of(record, &self.path)?);
             bytes.push(b'\n');
         }
@@ -96,12 +159,11 @@ impl Records {
             .append(true)
             .open(&self.path)
             .map_err(HarnessError::io("write", &self.path))?;
-        self.all = records;
         Ok(())
     }
 }
 
-fn line_of(record: &Record, path: &Path) -> Result<Vec<u8>, HarnessError> {
+pub(super) fn line_of(record: &Record, path: &Path) -> Result<Vec<u8>, HarnessError> {
     serde_json::to_vec(record).map_err(|e| HarnessError::Kept {
         path: path.into(),
         line: None,

@@ -30,10 +30,8 @@ struct Raw {
     spp: Vec<u32>,
     #[serde(default)]
     replicates: RawReplicates,
-    #[serde(default = "default_width")]
-    width: usize,
-    #[serde(default = "default_height")]
-    height: usize,
+    width: Option<usize>,
+    height: Option<usize>,
     #[serde(default = "default_depth")]
     depth: u32,
     #[serde(default = "default_filter")]
@@ -66,12 +64,9 @@ struct Raw {
     compare: Vec<Spanned<RawCompare>>,
 }
 
-fn default_width() -> usize {
-    256
-}
-fn default_height() -> usize {
-    192
-}
+/// Columns and rows of scenes in studies that state neither; synthetic scenes have their own then.
+const SIZE: (usize, usize) = (256, 192);
+
 fn default_depth() -> u32 {
     8
 }
@@ -117,7 +112,7 @@ struct RawReference {
 #[serde(deny_unknown_fields)]
 struct RawScene {
     id: String,
-    synthetic: Option<noisefloor_synthetic::SyntheticScene>,
+    synthetic: Option<noisefloor_synthetic::SyntheticSpec>,
     folder: Option<PathBuf>,
     spp: Option<Vec<u32>>,
     replicates: Option<RawReplicates>,
@@ -166,11 +161,13 @@ impl Study {
         let base = path.parent().unwrap_or(Path::new(""));
         let mut lines = Lines { file, text, ..Lines::default() };
 
+        let size = (raw.width.unwrap_or(SIZE.0), raw.height.unwrap_or(SIZE.1));
+        let of_study = (raw.width.is_some() || raw.height.is_some()).then_some(size);
         let mut scenes = Vec::new();
         for (index, scene) in raw.scenes.into_iter().enumerate() {
             let line = line_at(scene.span().start);
             lines.scenes.push(line);
-            scenes.push(scene.into_inner().resolve(index, line, base, &lines)?);
+            scenes.push(scene.into_inner().resolve(index, line, base, of_study, &lines)?);
         }
         let mut methods = Vec::new();
         for (index, row) in raw.methods.into_iter().enumerate() {
@@ -196,8 +193,8 @@ impl Study {
             reproduces: raw.reproduces,
             spp: raw.spp,
             replicates: raw.replicates.into(),
-            width: raw.width,
-            height: raw.height,
+            width: size.0,
+            height: size.1,
             depth: raw.depth,
             filter: raw.filter,
             feature_hit: raw.feature_hit,
@@ -256,6 +253,7 @@ impl RawScene {
         index: usize,
         line: usize,
         base: &Path,
+        size: Option<(usize, usize)>,
         lines: &Lines<'_>,
     ) -> Result<SceneSpec, HarnessError> {
         let place = || Place { line: Some(line), ..lines.place(None) };
@@ -267,7 +265,11 @@ impl RawScene {
         };
         let rendered = self.synthetic.is_none() && self.folder.is_none();
         let source = match (self.synthetic, self.folder, self.file, self.scene) {
-            (Some(spec), None, None, None) => SceneSource::Synthetic(spec),
+            (Some(spec), None, None, None) => {
+                let scene =
+                    spec.scene(size).map_err(|error| wrong("of no allowed size", &error.to_string()))?;
+                SceneSource::Synthetic(scene)
+            }
             (None, Some(folder), None, None) => SceneSource::Folder(base.join(folder)),
             (None, None, Some(file), None) => SceneSource::Gltf(base.join(file)),
             (None, None, None, name) => match noisefloor_scenes::find(name.as_ref().unwrap_or(&self.id)) {

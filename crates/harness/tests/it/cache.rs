@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::common::{Place, Watch, study, timeless};
-use noisefloor_harness::Study;
+use noisefloor_harness::{Study, StudyRun};
 
 const SPP: usize = 2;
 const REFERENCE: usize = 16;
@@ -76,7 +76,7 @@ fn a_damaged_cache_file_is_noticed_and_made_again() {
     place.run(&rendered(), &Watch::default()).unwrap();
     let before = timeless(&place.out());
     let good: Vec<Vec<u8>> = files(&place, "exr").iter().map(|path| std::fs::read(path).unwrap()).collect();
-    // One flipped bit, a file cut short, an empty one, and a lost checksum: each in turn, in every file.
+    // One flipped bit, a file cut short, an empty one, and a lost one: each in turn, in every file.
     type Harm = fn(&PathBuf);
     let harms: [Harm; 4] = [
         |path| {
@@ -90,7 +90,7 @@ fn a_damaged_cache_file_is_noticed_and_made_again() {
             std::fs::write(path, &bytes[..bytes.len() / 3]).unwrap();
         },
         |path| std::fs::write(path, b"").unwrap(),
-        |path| std::fs::remove_file(path.with_extension("b3")).unwrap(),
+        |path| std::fs::remove_file(path).unwrap(),
     ];
     for harm in harms {
         files(&place, "exr").iter().for_each(harm);
@@ -101,7 +101,39 @@ fn a_damaged_cache_file_is_noticed_and_made_again() {
         assert_eq!(watch.samples(), PIXELS * (2 * SPP + REFERENCE));
         assert_eq!(timeless(&place.out()), before);
     }
-    assert_eq!(good.len(), files(&place, "exr").len());
+    let remade: Vec<Vec<u8>> = files(&place, "exr").iter().map(|path| std::fs::read(path).unwrap()).collect();
+    assert!(good == remade, "a frame's file depends on nothing but what it carries");
+}
+
+#[test]
+fn a_frame_without_its_entry_is_made_again_quietly() {
+    let place = Place::new();
+    place.run(&rendered(), &Watch::default()).unwrap();
+    let before = timeless(&place.out());
+    assert_eq!(files(&place, "json").len(), 10);
+    // As a process leaves it that dies between the two files.
+    files(&place, "json").iter().for_each(|path| std::fs::remove_file(path).unwrap());
+    std::fs::remove_dir_all(place.out()).unwrap();
+    let watch = Watch::default();
+    place.run(&rendered(), &watch).unwrap();
+    assert_eq!(watch.samples(), PIXELS * (2 * SPP + REFERENCE));
+    assert!(watch.warnings().is_empty(), "{:?}", watch.warnings());
+    assert_eq!((timeless(&place.out()), files(&place, "exr").len()), (before, 10));
+}
+
+#[test]
+fn how_long_a_frame_took_is_known_when_it_comes_from_the_cache() {
+    let place = Place::new();
+    place.run(&rendered(), &Watch::default()).unwrap();
+    let seconds = |out: &std::path::Path| -> Vec<Option<f64>> {
+        crate::common::records(out).iter().map(|record| record.seconds.render).collect()
+    };
+    let first = seconds(&place.out());
+    assert!(first.iter().all(|seconds| seconds.is_some_and(|s| s > 0.0)));
+    let elsewhere = place.root.path().join("elsewhere");
+    let watch = Watch::default();
+    place.run_to(&elsewhere, &rendered(), &watch).unwrap();
+    assert_eq!((watch.samples(), seconds(&elsewhere)), (0, first));
 }
 
 #[test]
@@ -120,17 +152,8 @@ fn a_reference_that_is_stopped_midway_loses_at_most_one_part() {
 #[test]
 fn the_size_can_be_chosen_when_running() {
     let place = Place::new();
-    let summary = noisefloor_harness::run(&noisefloor_harness::StudyRun {
-        study: &rendered(),
-        registry: &crate::common::registry(),
-        out_dir: &place.out(),
-        cache_dir: &place.cache(),
-        size: Some((8, 6)),
-        command: String::new(),
-        simd: String::new(),
-        observer: &Watch::default(),
-    })
-    .unwrap();
+    let small = |request: StudyRun<'_>| noisefloor_harness::run(&StudyRun { size: Some((8, 6)), ..request });
+    let summary = place.run_with(&rendered(), &Watch::default(), small).unwrap();
     assert_eq!((summary.scenes[0].width, summary.scenes[0].height), (8, 6));
     let kept = noisefloor_io::read_color(place.out().join(&summary.scenes[0].reference_image)).unwrap();
     assert_eq!((kept.width(), kept.height()), (8, 6));

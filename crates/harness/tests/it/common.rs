@@ -323,12 +323,23 @@ impl Place {
     }
 
     pub fn run_to(&self, out: &Path, study: &Study, watch: &Watch) -> Result<Summary, HarnessError> {
-        noisefloor_harness::run(&StudyRun {
+        self.run_with(study, watch, |request| noisefloor_harness::run(&StudyRun { out_dir: out, ..request }))
+    }
+
+    /// Runs a request that `go` may change.
+    pub fn run_with(
+        &self,
+        study: &Study,
+        watch: &Watch,
+        go: impl FnOnce(StudyRun<'_>) -> Result<Summary, HarnessError>,
+    ) -> Result<Summary, HarnessError> {
+        go(StudyRun {
             study,
             registry: &registry(),
-            out_dir: out,
+            out_dir: &self.out(),
             cache_dir: &self.cache(),
             size: None,
+            again: &[],
             command: "test".into(),
             simd: "none".into(),
             observer: watch,
@@ -361,6 +372,12 @@ id = "blur"
 
 pub fn records(out: &Path) -> Vec<Record> {
     let text = std::fs::read_to_string(out.join("results.jsonl")).unwrap();
+    text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
+}
+
+/// Records that were set aside.
+pub fn superseded(out: &Path) -> Vec<Record> {
+    let text = std::fs::read_to_string(out.join("results.superseded.jsonl")).unwrap_or_default();
     text.lines().map(|line| serde_json::from_str(line).unwrap_or_else(|e| panic!("{e}: {line}"))).collect()
 }
 

@@ -106,14 +106,19 @@ fn a_stopped_study_has_no_flicker_and_a_lost_image_is_told() {
     assert_eq!(whole.flicker.len(), 2 * 3);
     std::fs::remove_file(place.out().join("images/f1/blur/spp00016-r1.exr")).unwrap();
     let lost = reanalyse(&place.out(), false).unwrap();
-    assert!(lost.flicker.is_empty());
-    assert!(
-        lost.warnings
-            .iter()
-            .any(|w| w.contains("sequence still: flicker is left out: ") && w.contains("r1.exr")),
-        "{:?}",
-        lost.warnings
-    );
+    assert!(lost.findings.iter().any(|f| f.subject.ends_with("spp00016-r1.exr")), "{:?}", lost.findings);
+    // Its replicate takes no part; everything else stays.
+    let others = |summary: &Summary| -> Vec<FlickerSummary> {
+        summary.flicker.iter().filter(|f| f.label != "blur" || f.spp != 16).cloned().collect()
+    };
+    assert_eq!((others(&lost).len(), others(&lost)), (5, others(&whole)));
+    assert!(lost.flicker.iter().all(|f| f.label != "blur" || f.spp != 16 || f.variance.n == 1));
+    std::fs::write(place.out().join("reference/f2.exr"), "").unwrap();
+    let blind = reanalyse(&place.out(), false).unwrap();
+    assert!(blind.flicker.is_empty());
+    let told =
+        |w: &&String| w.contains("sequence still: flicker is left out: ") && w.contains("reference/f2.exr");
+    assert!(blind.warnings.iter().any(|w| told(&w)), "{:?}", blind.warnings);
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use std::io::Write as _;
 
 use crate::common::{Place, Watch, records, small, study, timeless};
+use noisefloor_frame::FindingKind;
 use noisefloor_harness::{HarnessError, reanalyse};
 
 #[test]
@@ -59,15 +60,42 @@ fn a_torn_last_line_is_dropped_and_its_cell_runs_again() {
 }
 
 #[test]
-fn a_damaged_line_in_the_middle_is_an_error_that_names_it() {
+fn a_damaged_line_is_set_aside_and_told_and_its_cell_runs_again() {
+    let place = Place::new();
+    place.run(&small(), &Watch::default()).unwrap();
+    let before = timeless(&place.out());
+    let path = place.out().join("results.jsonl");
+    let mut lines: Vec<String> = std::fs::read_to_string(&path).unwrap().lines().map(str::to_owned).collect();
+    lines[2].truncate(100);
+    std::fs::write(&path, lines.join("\n") + "\n").unwrap();
+
+    // A report tells, and goes on with the rest.
+    let summary = reanalyse(&place.out(), false).unwrap();
+    assert_eq!(summary.cells.iter().map(|cell| cell.replicates).sum::<u32>(), 7);
+    let [found] = summary.findings.as_slice() else { panic!("{:?}", summary.findings) };
+    assert!(found.kind == FindingKind::DamagedFile && found.subject == "results.jsonl, line 3", "{found:?}");
+    assert!(!place.out().join("results.damaged.jsonl").exists(), "a report changes nothing");
+
+    let watch = Watch::default();
+    let summary = place.run(&small(), &watch).unwrap();
+    assert_eq!(watch.cells(), 1);
+    assert!(watch.warnings()[0].contains("results.jsonl, line 3"), "{:?}", watch.warnings());
+    assert_eq!(timeless(&place.out()), before);
+    let aside = std::fs::read_to_string(place.out().join("results.damaged.jsonl")).unwrap();
+    assert_eq!(aside.trim_end(), lines[2]);
+    assert!(summary.findings.is_empty(), "{:?}", summary.findings);
+}
+
+#[test]
+fn records_of_a_newer_program_stop_the_run_and_stay_as_they_are() {
     let place = Place::new();
     place.run(&small(), &Watch::default()).unwrap();
     let path = place.out().join("results.jsonl");
-    let mut lines: Vec<String> = std::fs::read_to_string(&path).unwrap().lines().map(str::to_owned).collect();
-    lines[2].truncate(30);
-    std::fs::write(&path, lines.join("\n") + "\n").unwrap();
+    let text = std::fs::read_to_string(&path).unwrap().replacen("\"schema\":1", "\"schema\":99", 1);
+    std::fs::write(&path, &text).unwrap();
     let error = place.run(&small(), &Watch::default()).unwrap_err().to_string();
-    assert!(error.contains("results.jsonl, line 3"), "{error}");
+    assert!(error.contains("results.jsonl, line 1") && error.contains("newer program"), "{error}");
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
 }
 
 #[test]
@@ -159,6 +187,7 @@ fn analysis_and_metrics_can_be_made_again_from_what_is_kept() {
         assert_eq!(again, first, "recompute: {recompute}");
         assert_eq!(timeless(&place.out()), before);
     }
+    assert!(crate::common::superseded(&place.out()).is_empty(), "equal numbers supersede nothing");
     let nothing = reanalyse(&place.root.path().join("absent"), false).unwrap_err();
     assert!(matches!(nothing, HarnessError::Io { .. }), "{nothing}");
     assert!(!place.root.path().join("absent").exists());

@@ -83,8 +83,8 @@ pub fn provenance() -> Provenance {
             ],
             vertical_fov_degrees: 37.3,
         }),
-        render_seconds: Some(0.1 + 0.2),
-        render_threads: Some(2),
+        render_seconds: None,
+        render_threads: None,
         extra: names.map(|name| (name.to_owned(), format!("value of {name}"))).into(),
     }
 }

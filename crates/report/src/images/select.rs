@@ -120,7 +120,9 @@ impl<'a> Builder<'a> {
             title: scene.title.clone(),
             ..GalleryScene::default()
         });
-        let mut paths: Vec<&str> = vec![&scene.reference_image];
+        // A reference that is not what was written has no path.
+        let reference = Some(scene.reference_image.as_str()).filter(|path| !path.is_empty());
+        let mut paths: Vec<&str> = reference.into_iter().collect();
         paths.extend(spp.iter().flat_map(|&n| level_paths(scene, n)).map(|(_, path)| path));
         let Some((first, _)) = self.read(&paths, None).into_iter().next() else { return };
         let full = [0, 0, first.width, first.height];

@@ -1,7 +1,8 @@
-use noisefloor_frame::{Frame, Hygiene};
-use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
+//! Frames that break careless methods, for tests of methods and for telling one version of a method from another.
 
-use crate::broken;
+use noisefloor_frame::{Frame, Hygiene};
+
+use crate::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene, broken};
 
 /// A frame that breaks careless methods.
 #[derive(Debug, Clone)]

@@ -1,0 +1,125 @@
+//! What the measuring gives on a fixed pair of images: numbers of two definitions of a metric are never mixed.
+
+use std::sync::OnceLock;
+
+use noisefloor_denoiser::Claim;
+use noisefloor_frame::{Frame, Image, Reference, Sampling};
+use noisefloor_metrics::{Classes, Measurer, MetricError, block_bootstrap};
+use noisefloor_stats::{Level, ShapeError};
+use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
+use serde_json::{Value, json};
+
+use crate::cache::{Key, key_of};
+use crate::fingerprint::Bits;
+use crate::measure::{Measure, ratio_within_se};
+use crate::run::BOOTSTRAP_IMAGES;
+use crate::source::PixelClasses;
+
+/// Hash of all that the measuring of a cell gives on a fixed frame, output and truth, for each way in which a truth states
+/// its noise: metrics, their standard errors, classes, coverage, bounds, enclosures, estimates of error.
+pub(crate) fn measuring() -> &'static str {
+    static MEASURING: OnceLock<Key> = OnceLock::new();
+    MEASURING.get_or_init(|| {
+        // Nothing here can fail but for a mistake in this file, which its test would show.
+        everything().map_or_else(|error| format!("none: {error}"), |all| key_of(&all))
+    })
+}
+
+#[derive(Debug, thiserror::Error)]
+enum Wrong {
+    #[error(transparent)]
+    Scene(#[from] SyntheticError),
+    #[error(transparent)]
+    Frame(#[from] noisefloor_frame::FrameError),
+    #[error(transparent)]
+    Metric(#[from] MetricError),
+    #[error(transparent)]
+    Shape(#[from] ShapeError),
+}
+
+fn everything() -> Result<Value, Wrong> {
+    let law = SampleLaw::Gaussian { sd: 0.3, relative: false };
+    // More than one block of the bootstrap in both directions.
+    let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, 70, 50)?.with_guides(Guides::None);
+    let frame = scene.render(8, 1);
+    let parts = (0..8).map(|part| scene.render(32, 100 + part).color.mean).collect();
+    let in_parts = Reference::from_parts(parts, 32, Sampling::LowDiscrepancy)?;
+    let mut varied = in_parts.clone();
+    (varied.frame.color.halves, varied.parts) = (None, Vec::new());
+    let mut silent = varied.clone();
+    silent.frame.color.variance = None;
+    let mut image = frame.color.mean.map(|v| 0.9 * v + 0.02);
+    // Values that are not finite, on an edge of the image and inside.
+    for (value, at) in [(f32::NAN, 3), (f32::INFINITY, 1801), (f32::NEG_INFINITY, 5000)] {
+        image.data_mut()[at] = value;
+    }
+    let references = [scene.truth(), in_parts, varied, silent];
+    let measured: Result<Vec<Value>, Wrong> =
+        references.iter().map(|reference| against(reference, &frame, &image)).collect();
+    Ok(json!(measured?))
+}
+
+fn against(reference: &Reference, frame: &Frame, image: &Image) -> Result<Value, Wrong> {
+    let mut bits = Bits::of("reference");
+    bits.frame(&reference.frame);
+    let classes = PixelClasses::from_reference(reference);
+    let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
+    let measurer = Measurer::new(reference, Some(map))?;
+    let measured = measurer.measure(image)?;
+    let squared = measurer.squared_errors(image)?;
+    let estimate = image.map(|v| 0.01 * v);
+    let level = Level::TWO_SIDED_95;
+    let claims = [Claim { name: "claim", terms: vec![(1.5, level)], level, proven: true }];
+    let invalid: Vec<bool> = (0..frame.pixels()).map(|pixel| pixel % 97 == 5).collect();
+    let measure = Measure::new(frame, reference, &classes, &invalid, true);
+    Ok(json!({
+        "reference": bits.finish(),
+        "classes of pixels": [json!(classes.names), json!(classes.of_pixel)],
+        "values": measured.values,
+        "classes": measured.classes,
+        "reference_se": measured.reference_se,
+        "non-finite": measured.non_finite_values,
+        "pixels": measured.pixels,
+        "floor": measurer.floor(),
+        "bias": measurer.bias(),
+        "bootstrap": block_bootstrap(&measurer, image, BOOTSTRAP_IMAGES, 1)?,
+        "ratio": ratio_within_se(image, &frame.color.mean, reference)?,
+        "estimate": measure.estimate(&estimate, &squared),
+        "coverage": measure.coverage(&[0.95, 0.998])?,
+        "bounds": measure.bounds(image, &claims)?,
+        "enclosures": measure.enclosures(image, &claims)?,
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fingerprint_of_the_measuring_holds_every_number_of_a_record() {
+        let all = everything().unwrap_or_else(|e| panic!("{e}"));
+        assert_eq!(measuring(), key_of(&all));
+        for (index, of_reference) in all.as_array().unwrap().iter().enumerate() {
+            for (name, found) in of_reference.as_object().unwrap() {
+                // The exact truth has no noise of its own, one that states none has none to tell.
+                let none = matches!((index, name.as_str()), (0 | 3, "reference_se" | "floor" | "bias"));
+                let empty = found.is_null()
+                    || found.as_array().is_some_and(Vec::is_empty)
+                    || found.as_object().is_some_and(serde_json::Map::is_empty);
+                assert!(!empty || none, "{index}: {name} is {found}");
+            }
+            for metric in noisefloor_metrics::METRICS {
+                assert!(of_reference["values"][metric.id].is_number(), "{index}: {}", metric.id);
+            }
+        }
+    }
+
+    #[test]
+    fn another_number_anywhere_is_another_fingerprint() {
+        let all = everything().unwrap_or_else(|e| panic!("{e}"));
+        let mut other = all.clone();
+        let value = other[1]["values"]["relmse"].as_f64().unwrap();
+        other[1]["values"]["relmse"] = json!(f64::from_bits(value.to_bits() ^ 1));
+        assert_ne!(key_of(&other), key_of(&all));
+    }
+}
