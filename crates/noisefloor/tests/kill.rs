@@ -129,15 +129,21 @@ id = "mc"
 id = "geometric-corrected"
 "#;
 
-/// Runs a program on the study in `folder` and tells of its records.
+/// Starts a program on the study in `folder`.
 fn run_with(program: &Path, folder: &Path) -> Child {
-    Command::new(program)
-        .args(["run", "study.toml", "--threads", "1", "--out", "out", "--cache", "cache"])
-        .current_dir(folder)
-        .stdout(Stdio::null())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap()
+    let mut command = Command::new(program);
+    command.args(["run", "study.toml", "--quiet", "--threads", "1", "--out", "out", "--cache", "cache"]);
+    command.current_dir(folder).stdout(Stdio::null()).stderr(Stdio::piped());
+    loop {
+        match command.spawn() {
+            Ok(child) => return child,
+            // A test beside this one was being forked while the program was written.
+            Err(busy) if busy.kind() == std::io::ErrorKind::ExecutableFileBusy => {
+                std::thread::sleep(Duration::from_millis(1));
+            }
+            Err(error) => panic!("{}: {error}", program.display()),
+        }
+    }
 }
 
 #[test]

@@ -33,7 +33,7 @@ impl Owners {
 
     /// The path for a file of a cell: as wanted unless another cell's file is there, else with the first digits of the
     /// cell's key before the extension.
-    pub(super) fn path(&self, wanted: String, key: &Key) -> String {
+    pub(super) fn path(&self, wanted: String, key: &str) -> String {
         let taken = self.0.get(&wanted).is_some_and(|keys| keys.iter().any(|other| other != key));
         match wanted.rsplit_once('.').filter(|_| taken) {
             Some((stem, extension)) => format!("{stem}-{}.{extension}", key.get(..8).unwrap_or(key)),

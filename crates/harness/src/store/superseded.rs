@@ -1,7 +1,6 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::cache::Key;
 use crate::error::HarnessError;
 use crate::record::Record;
 use crate::store::append_lines;
@@ -27,8 +26,8 @@ impl Superseded {
     }
 
     /// Those of a cell, the last one set aside first.
-    pub(crate) fn of_cell<'a>(&'a self, key: &'a Key) -> impl Iterator<Item = &'a Record> {
-        self.all.iter().rev().filter(move |record| record.cell == *key)
+    pub(crate) fn of_cell<'a>(&'a self, key: &'a str) -> impl Iterator<Item = &'a Record> {
+        self.all.iter().rev().filter(move |record| record.cell == key)
     }
 
     /// Sets records aside; they are on disk when this returns. Those that are there already, because they were in use again

@@ -79,9 +79,9 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
     if !(1..=1024).contains(&study.depth) {
         return wrong("depth", key("depth"), study.depth.to_string(), "1 to 1024");
     }
-    // Truth that is exact or comes with its frames is not rendered, so nobody is asked how.
+    // Truth that is exact or comes with its frames is not rendered: nobody is asked how, and the default may be anything.
     let rendered = |s: &SceneSpec| matches!(s.source, SceneSource::Builtin(_) | SceneSource::Gltf(_));
-    if study.scenes.iter().any(rendered) {
+    if study.scenes.iter().any(rendered) || lines.of_table("reference").is_some() {
         check_reference(study, lines)?;
     }
     if study.timing.runs == 0 {

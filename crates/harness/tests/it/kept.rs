@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{FindingKind, Image};
-use noisefloor_harness::summary::Summary;
+use noisefloor_harness::summary::{Interval, Summary};
 use noisefloor_harness::{HarnessError, reanalyse, reanalyse_into};
 
 use crate::common::{Place, Watch, records, small, timeless};
@@ -26,6 +26,11 @@ fn told(summary: &Summary, path: &str) -> bool {
     summary.findings.iter().any(|f| f.kind == FindingKind::DamagedFile && f.subject == path)
 }
 
+/// Metrics of all cells; times are those of the last run.
+fn numbers(summary: &Summary) -> Vec<&BTreeMap<String, Interval>> {
+    summary.cells.iter().map(|cell| &cell.metrics).collect()
+}
+
 #[test]
 fn a_damaged_image_is_named_by_a_report_and_made_again_by_a_run() {
     let place = Place::new();
@@ -43,7 +48,7 @@ fn a_damaged_image_is_named_by_a_report_and_made_again_by_a_run() {
                 // The picture is left out, the numbers stay.
                 let scene = serde_json::to_string(&summary.scenes).unwrap();
                 assert!(!scene.contains(path), "{path}");
-                assert_eq!(summary.cells, first.cells);
+                assert_eq!(numbers(&summary), numbers(&first));
             }
             assert_eq!(timeless(&place.out()), before, "a report does not forget the file");
             let watch = Watch::default();
