@@ -60,7 +60,7 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     if args.json {
         let stages: Map<String, Value> =
             made.stages.iter().map(|s| (s.name.clone(), s.seconds.into())).collect();
-        let object = json!({
+        let mut object = json!({
             "method": method.id,
             "params": method.params,
             "output": output.path(),
@@ -72,6 +72,9 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
             "input": hygiene,
             "non_finite_output": made.image.count_non_finite(),
         });
+        if let Some(picture) = main.describe() {
+            object["picture"] = picture;
+        }
         say!(out, "{}", serde_json::to_string_pretty(&object)?)?;
     } else {
         tell(out, args, &made, seconds, peak, hygiene.invalid_pixels)?;

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use noisefloor_frame::{Frame, Image, Reference};
 use noisefloor_io::{Destination, IoError, write_frame, write_image, write_reference};
 use noisefloor_report::{Picture, picture};
+use serde_json::{Value, json};
 
 use crate::exit::usage;
 use crate::out::{Out, say};
@@ -162,6 +163,15 @@ impl Written<'_> {
     /// If standard output cannot take it.
     pub fn tell(&self, more: impl fmt::Display) -> anyhow::Result<()> {
         say!(self.output.messages(), "wrote {}{more}{}", self.output.to, self.note())
+    }
+
+    /// What a PNG does to the numbers, for programs; nothing for OpenEXR.
+    pub fn describe(&self) -> Option<Value> {
+        let (Format::Png(stops), Some(shown)) = (self.output.format, &self.shown) else { return None };
+        Some(json!({
+            "bits": 8, "exposure_stops": stops, "curve": "sRGB",
+            "clipped_pixels": shown.clipped_pixels, "non_finite_pixels": shown.non_finite_pixels,
+        }))
     }
 
     /// What a PNG does to the numbers; nothing for OpenEXR.

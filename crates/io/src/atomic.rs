@@ -53,13 +53,12 @@ pub(crate) fn prepare(path: &Path) -> io::Result<(NamedTempFile, Option<Permissi
     Ok((create_in(folder).map_err(nameless)?, before))
 }
 
-/// The system's reason without the name of the temporary file, which says nothing to the user.
+/// The system's reason without the name of the temporary file, which says nothing to the user and which `tempfile`
+/// appends to the text.
 fn nameless(error: io::Error) -> io::Error {
-    let inner =
-        error.get_ref().and_then(|wrapped| wrapped.source()).and_then(|e| e.downcast_ref::<io::Error>());
-    match inner.and_then(io::Error::raw_os_error) {
-        Some(code) => io::Error::from_raw_os_error(code),
-        None if error.get_ref().is_some() => error.kind().into(),
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((reason, _)) => io::Error::new(error.kind(), reason.to_owned()),
         None => error,
     }
 }
@@ -76,6 +75,11 @@ fn create_in(folder: &Path) -> io::Result<NamedTempFile> {
 mod tests {
     use super::*;
 
+    /// Not named `.tmp…`, which is looked for in messages.
+    fn folder() -> tempfile::TempDir {
+        Builder::new().prefix("atomic").tempdir().unwrap()
+    }
+
     fn names(folder: &Path) -> Vec<String> {
         let mut names: Vec<String> = std::fs::read_dir(folder)
             .unwrap()
@@ -87,7 +91,7 @@ mod tests {
 
     #[test]
     fn a_failed_write_keeps_the_old_file_and_leaves_nothing_else() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         let path = folder.path().join("a.txt");
         write_atomically(&path, |out| out.write_all(b"old")).unwrap();
         let full = |out: &mut dyn Write| {
@@ -106,7 +110,7 @@ mod tests {
 
     #[test]
     fn a_missing_folder_and_a_folder_in_the_way_are_errors_that_name_the_path() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         for path in [folder.path().join("absent/a.txt"), folder.path().to_owned()] {
             let error = write_atomically(&path, |out| out.write_all(b"x")).unwrap_err();
             assert!(error.to_string().starts_with(&path.display().to_string()), "{error}");
@@ -119,7 +123,7 @@ mod tests {
     #[test]
     fn the_file_is_as_readable_as_any_other() {
         use std::os::unix::fs::PermissionsExt as _;
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         let (ours, plain) = (folder.path().join("ours"), folder.path().join("plain"));
         write_atomically(&ours, |out| out.write_all(b"x")).unwrap();
         std::fs::write(&plain, b"x").unwrap();
@@ -131,7 +135,7 @@ mod tests {
     #[test]
     fn a_file_keeps_its_permissions_and_a_read_only_one_its_contents() {
         use std::os::unix::fs::PermissionsExt as _;
-        let folder = tempfile::tempdir().unwrap();
+        let folder = folder();
         let path = folder.path().join("private");
         std::fs::write(&path, b"old").unwrap();
         let set = |mode| std::fs::set_permissions(&path, Permissions::from_mode(mode)).unwrap();
