@@ -237,3 +237,34 @@ fn results_of_a_study_do_not_go_into_the_folder_of_its_frames() {
     let told = refused(at, &["run", "frames", "--out", "./frames", "--cache", "cache"]);
     assert!(told.contains("folder of the frames"), "{told}");
 }
+
+#[test]
+fn several_images_stand_beside_each_other_over_counted_pixels_with_maps_of_their_errors() {
+    let folder = rendered();
+    let at = folder.path();
+    let reference = ["render", "cornell", "--spp", "64", "--parts", "8", "--size", "16x12", "-o", "r.exr"];
+    done(at, &reference);
+    let mut image = read_color(at.join("f.exr")).unwrap();
+    image.set(0, 0, 0, f32::NAN);
+    fs::create_dir(at.join("other")).unwrap();
+    noisefloor::io::write_image(at.join("other/f.exr"), &image, &Default::default()).unwrap();
+    let compare = ["compare", "f.exr", "other/f.exr", "r.exr"];
+    let told = done(at, &[&compare[..], &["--maps", "maps"]].concat());
+    for words in ["192 of 192", "191 of 192", "different pixels", "1 value is not finite", "bias of relmse"] {
+        assert!(told.contains(words), "{words}: {told}");
+    }
+    assert!(told.contains("viridis from 0 to") && told.contains("1 pixel not finite (magenta)"), "{told}");
+    for map in ["maps/f.error.png", "maps/f-2.error.png"] {
+        assert!(fs::read(at.join(map)).unwrap().starts_with(b"\x89PNG"), "{map}");
+    }
+    let json: serde_json::Value =
+        serde_json::from_str(&done(at, &[&compare[..], &["--json"]].concat())).unwrap();
+    let pixels: Vec<u64> =
+        json.as_array().unwrap().iter().map(|one| one["pixels"]["mse"].as_u64().unwrap()).collect();
+    assert_eq!(pixels, [192, 191]);
+    // One image is one object, and has the same numbers.
+    let one: serde_json::Value =
+        serde_json::from_str(&done(at, &["compare", "f.exr", "r.exr", "--json"])).unwrap();
+    assert_eq!(one, json[0]);
+    assert!(one["relative_bias"]["relmse"].as_f64().unwrap() > 0.0);
+}

@@ -33,7 +33,7 @@ impl Map {
         let mut note = format!("|x − r|/√(r² + 0.01), viridis from 0 to {}", self.top);
         for (count, what) in [(self.above, "above"), (self.non_finite, "not finite (magenta)")] {
             if count > 0 {
-                note.push_str(&format!(", {count} pixels {what}"));
+                note.push_str(&format!(", {count} {} {what}", if count == 1 { "pixel" } else { "pixels" }));
             }
         }
         note
