@@ -333,7 +333,7 @@ pub struct Scenes {
     #[arg(long, value_name = "N", default_value_t = 1024, requires = "sheet", value_parser = clap::value_parser!(u32).range(8..=524288))]
     pub reference_spp: u32,
     /// Threads [default: all]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", requires = "sheet", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
     /// No progress
     #[arg(long, short)]

@@ -47,7 +47,7 @@ impl Output {
             [None] => false,
             _ => {
                 return Err(usage(format!(
-                    "-o {}: the name must end in .exr (numbers) or .png (a picture), or be - for standard output",
+                    "output {}: its name must end in .exr (numbers) or .png (a picture), or be - for standard output",
                     word.display()
                 )));
             }

@@ -111,7 +111,7 @@ mod tests {
     fn the_range_covers_the_99th_percentile_of_all_maps_and_is_never_zero() {
         let map = |values: Vec<f32>| Image::from_vec(values.len(), 1, 1, values).unwrap();
         let low = map((0..100).map(|i| i as f32 / 1000.0).collect());
-        assert_eq!(usual_range(&[low.clone()]), 0.098);
+        assert_eq!(usual_range(std::slice::from_ref(&low)), 0.098);
         // Half of the 200 values are high, so the percentile is.
         let high = map(vec![4.321; 100]);
         assert_eq!(usual_range(&[low, high]), 4.4);
