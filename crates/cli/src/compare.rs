@@ -11,8 +11,8 @@ mod text;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use noisefloor_frame::{Finding, Image};
-use noisefloor_io::{ReadOptions, read_color, read_reference};
+use noisefloor_frame::{Finding, Image, sorted_findings};
+use noisefloor_io::{ReadOptions, read_checked_reference, read_color};
 use noisefloor_metrics::{Measured, Measurer, trimmed_count};
 
 use crate::args::Compare;
@@ -39,7 +39,9 @@ impl Compared<'_> {
 pub fn run(args: &Compare) -> anyhow::Result<Exit> {
     let plan = maps::plan(args)?;
     // The sample count of a reference plays no part here, so a file without one is fine.
-    let reference = read_reference(&args.reference, &ReadOptions { spp: Some(1) })?;
+    let (reference, found) = read_checked_reference(&args.reference, &ReadOptions { spp: Some(1) })?;
+    let name = args.reference.display().to_string();
+    let of_reference: Vec<Finding> = found.into_iter().map(|finding| finding.within(&name)).collect();
     let measurer = Measurer::new(&reference, None).with_context(|| args.reference.display().to_string())?;
     let mean = reference.mean();
     let mut all = Vec::new();
@@ -59,7 +61,8 @@ pub fn run(args: &Compare) -> anyhow::Result<Exit> {
         let measured = measurer
             .measure(&image)
             .with_context(|| format!("{} against {}", path.display(), args.reference.display()))?;
-        let findings = findings::of_pair(path, &measured);
+        let findings = findings::of_pair(path, &measured).into_iter().chain(of_reference.clone());
+        let findings = sorted_findings(findings);
         all.push(Compared { path, image, measured, findings, map: None });
     }
     if let Some(plan) = &plan {

@@ -6,13 +6,14 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use noisefloor_denoiser::{Diagnostics, Input};
-use noisefloor_io::{ReadOptions, read_frame, read_info, same_file, write_image};
+use noisefloor_io::{ReadOptions, read_info, same_file, write_image};
 use serde_json::{Map, Value, json};
 
 use crate::args::Denoise;
 use crate::context::{Context, measured_peak_memory, use_threads};
 use crate::exit::{Exit, usage};
-use crate::out::{Out, say};
+use crate::input::{self, Checked};
+use crate::out::{Out, note, say};
 use crate::output::Output;
 
 pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
@@ -28,26 +29,26 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     }
     let overrides = overrides(&args.set)?;
     let method = context.registry.build(&args.method, &overrides)?;
-    let mut frame = read_frame(&args.frame, &ReadOptions { spp: args.spp })?;
-    // Refuse on what the file gives, before hygiene and before any work.
-    Input::new(&frame).check(&method.denoiser.card())?;
+    let options = ReadOptions { spp: args.spp };
+    let Checked { frame, hygiene, findings } = input::read(&args.frame, &options, &method.denoiser.card())?;
     if let Some(probe) = args.probe
         && (probe.x >= frame.width() || probe.y >= frame.height())
     {
         bail!("--probe {},{} lies outside the {}×{} frame", probe.x, probe.y, frame.width(), frame.height());
     }
-    let hygiene = frame.sanitize();
-    let input = Input::new(&frame);
+    let given = Input::new(&frame);
     let start = Instant::now();
-    let made = method.denoiser.denoise(&input)?;
+    let mut made = method.denoiser.denoise(&given)?;
     let seconds = start.elapsed().as_secs_f64();
     let peak = measured_peak_memory();
+    let non_finite_output = made.image.count_non_finite();
+    input::as_read(&method.id, &mut made.image, &hygiene);
 
     let main = output.image(&made.image, &attributes(args, &method.params))?;
     let mut written = Vec::new();
     if args.diagnostics {
         let probe = args.probe.map(|p| (p.x, p.y));
-        let with = method.denoiser.denoise(&input.with_diagnostics(Diagnostics::On { probe }))?;
+        let with = method.denoiser.denoise(&given.with_diagnostics(Diagnostics::On { probe }))?;
         let titles: Vec<&str> = with.diagnostics.iter().map(|(name, _)| name.as_str()).collect();
         let paths = diagnostic_paths(&args.output, &titles);
         for ((name, image), path) in with.diagnostics.iter().zip(paths) {
@@ -70,14 +71,18 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
             "diagnostics": written.iter().map(|(name, path)| json!({"name": name, "path": path})).collect::<Vec<_>>(),
             "figures": made.figures.iter().cloned().collect::<BTreeMap<_, _>>(),
             "input": hygiene,
-            "non_finite_output": made.image.count_non_finite(),
+            "findings": findings,
+            "non_finite_output": non_finite_output,
         });
         if let Some(picture) = main.describe() {
             object["picture"] = picture;
         }
         say!(out, "{}", serde_json::to_string_pretty(&object)?)?;
     } else {
-        tell(out, args, &made, seconds, peak, hygiene.invalid_pixels)?;
+        for finding in &findings {
+            note!("warning: {finding}");
+        }
+        tell(out, args, &made, seconds, peak)?;
         main.tell("")?;
         for (_, path) in written {
             say!(out, "wrote {}", path.display())?;
@@ -92,7 +97,6 @@ fn tell(
     made: &noisefloor_denoiser::Output,
     seconds: f64,
     peak: Option<u64>,
-    invalid: usize,
 ) -> anyhow::Result<()> {
     say!(out, "{}: {:.1} ms on {} threads", args.method, seconds * 1e3, rayon::current_num_threads())?;
     for stage in &made.stages {
@@ -100,9 +104,6 @@ fn tell(
     }
     if let Some(bytes) = peak {
         say!(out, "  peak memory {:.0} MiB", bytes as f64 / f64::from(1 << 20))?;
-    }
-    if invalid > 0 {
-        say!(out, "  {invalid} input pixels were not finite and were filled from their neighbours")?;
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ mod context;
 mod convert;
 mod denoise;
 mod exit;
+mod input;
 mod interrupt;
 mod methods;
 mod out;

@@ -3,6 +3,8 @@ use std::fmt;
 use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
 use noisefloor_stats::Level;
 
+use crate::{Alternative, entry::nearest};
+
 /// Where a method comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Citation {
@@ -113,6 +115,11 @@ pub struct MethodCard {
     pub needs: Vec<Need>,
     /// Inputs it uses if present; a renderer records these too.
     pub uses: Vec<Need>,
+    /// Settings under which it does without some of its needs.
+    pub alternatives: Vec<Alternative>,
+    /// Features that its parameters name. One that has no fixed meaning ([`FeatureId::KNOWN`]) must be in the frame:
+    /// otherwise the name is a mistake, see [`crate::Input::check`].
+    pub named_features: Vec<String>,
     /// Frames of an animation that it uses on each side of the target, if [`crate::Input`] has them.
     pub neighbors: usize,
     /// Promises.
@@ -131,10 +138,28 @@ impl MethodCard {
             citation,
             needs: Vec::new(),
             uses: Vec::new(),
+            alternatives: Vec::new(),
+            named_features: Vec::new(),
             neighbors: 0,
             claims: Claims::default(),
             notes: Vec::new(),
         }
+    }
+
+    /// The first of [`Self::named_features`] that has no fixed meaning and is none of `there`, with the nearest names.
+    #[must_use]
+    pub fn unknown_feature<'a>(
+        &self,
+        there: impl Iterator<Item = &'a str> + Clone,
+    ) -> Option<(String, Vec<String>)> {
+        let known = || FeatureId::KNOWN.iter().map(FeatureId::name).chain(there.clone());
+        let unknown = self.named_features.iter().find(|name| !known().any(|known| known == *name))?;
+        let mut names: Vec<&str> = known().collect();
+        names.sort_unstable();
+        names.dedup();
+        // Letters of another size are the same name to people.
+        let given = unknown.to_lowercase();
+        Some((unknown.clone(), nearest(&given, names.into_iter())))
     }
 
     /// The needs that a frame does not meet.

@@ -1,19 +1,31 @@
 use noisefloor_frame::FrameError;
 use thiserror::Error;
 
-use crate::Need;
+use crate::{Need, Setting};
 
 /// Why a method did not give an image.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DenoiseError {
     /// Inputs that the method needs are absent; found before any work.
-    #[error("{method} needs {}", list(missing))]
+    #[error("{method} needs {}{}", list(missing), without(ways_out))]
     MissingInputs {
         /// Method id.
         method: String,
         /// Everything that is missing.
         missing: Vec<Need>,
+        /// Settings, each sufficient, under which it does without, see [`crate::MethodCard::ways_out`].
+        ways_out: Vec<Vec<Setting>>,
+    },
+    /// A parameter names a feature that has no fixed meaning and is not in the frame; found before any work.
+    #[error("{method}: there is no feature `{feature}`; nearest: {}", nearest.join(", "))]
+    UnknownFeature {
+        /// Method id.
+        method: String,
+        /// Name given.
+        feature: String,
+        /// The closest names that mean something.
+        nearest: Vec<String>,
     },
     /// The buffers of the input do not fit together.
     #[error(transparent)]
@@ -61,4 +73,14 @@ impl DenoiseError {
 
 fn list(needs: &[Need]) -> String {
     needs.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+}
+
+fn without(ways_out: &[Vec<Setting>]) -> String {
+    let one = |way: &Vec<Setting>| way.iter().map(ToString::to_string).collect::<Vec<_>>().join(" and ");
+    match ways_out {
+        [] => String::new(),
+        ways => {
+            format!("; it does without with {}", ways.iter().map(one).collect::<Vec<_>>().join(", or with "))
+        }
+    }
 }

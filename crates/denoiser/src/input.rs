@@ -1,4 +1,4 @@
-use noisefloor_frame::Frame;
+use noisefloor_frame::{FeatureId, Frame};
 
 use crate::{DenoiseError, MethodCard};
 
@@ -30,7 +30,7 @@ pub struct Input<'a> {
 }
 
 impl<'a> Input<'a> {
-    /// A single frame, which the caller has passed through [`Frame::sanitize`].
+    /// A single frame, which the caller has passed through [`Frame::inspect`] or [`Frame::sanitize`].
     #[must_use]
     pub fn new(target: &'a Frame) -> Self {
         Self { target, before: &[], after: &[], diagnostics: Diagnostics::Off }
@@ -48,14 +48,22 @@ impl<'a> Input<'a> {
         Self { before, after, ..self }
     }
 
-    /// Refuses before any work: every need of the card must be met and all buffers must fit together.
+    /// Refuses before any work: every need of the card must be met, every feature that it names must mean something,
+    /// and all buffers must fit together.
     ///
     /// # Errors
-    /// [`DenoiseError::MissingInputs`] with all that is missing, or [`DenoiseError::Frame`].
+    /// [`DenoiseError::MissingInputs`] with all that is missing, [`DenoiseError::UnknownFeature`], or
+    /// [`DenoiseError::Frame`].
     pub fn check(&self, card: &MethodCard) -> Result<(), DenoiseError> {
         let missing = card.missing(self.target);
         if !missing.is_empty() {
-            return Err(DenoiseError::MissingInputs { method: card.id.clone(), missing });
+            let ways_out = card.ways_out(self.target);
+            return Err(DenoiseError::MissingInputs { method: card.id.clone(), missing, ways_out });
+        }
+        if let Some((feature, nearest)) =
+            card.unknown_feature(self.target.features.keys().map(FeatureId::name))
+        {
+            return Err(DenoiseError::UnknownFeature { method: card.id.clone(), feature, nearest });
         }
         self.target.check()?;
         let (width, height) = (self.target.width(), self.target.height());

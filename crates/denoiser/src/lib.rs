@@ -34,6 +34,7 @@ mod guarded;
 mod input;
 mod interval;
 mod mc;
+mod needs;
 mod output;
 mod registry;
 mod timer;
@@ -49,6 +50,7 @@ pub use guarded::Guarded;
 pub use input::{Diagnostics, Input};
 pub use interval::half_widths;
 pub use mc::{MC_ENTRY, MonteCarlo};
+pub use needs::{Alternative, Setting};
 pub use output::{Bound, Output, StageSeconds};
 pub use registry::{Method, Registry};
 pub use timer::StageTimer;
@@ -60,8 +62,8 @@ pub trait Denoiser: Send + Sync {
 
     /// Denoises `input.target`.
     ///
-    /// The same input gives the same bits for any number of threads. The target has been sanitised (no non-finite values) by
-    /// whoever built the [`Input`], see [`Input::new`].
+    /// The same input gives the same bits for any number of threads. The target has been sanitised (no non-finite
+    /// values) by whoever built the [`Input`], see [`Input::new`].
     ///
     /// # Errors
     /// [`DenoiseError::MissingInputs`] before any work if something in [`MethodCard::needs`] is absent, and whatever the

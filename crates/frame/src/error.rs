@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 /// What can be wrong with the parts of a frame.
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
 pub enum FrameError {
     /// The number of values does not fill the stated shape.
@@ -63,6 +63,38 @@ pub enum FrameError {
         got: u32,
         /// Smallest count that works.
         least: u32,
+    },
+    /// No pixel of the colour is finite in all its channels: there is no image.
+    #[error("none of the {pixels} pixels has a colour that is finite in all channels: there is no image")]
+    NoValidPixel {
+        /// Pixels of the frame.
+        pixels: usize,
+    },
+    /// The means of two halves, or of several parts, of the samples do not make up the mean of all of them: the buffers
+    /// are of different images, or one of them was scaled, cleared or edited.
+    #[error(
+        "`{layer}`: its {made_of} do not average to the mean: at pixel ({x}, {y}), channel {channel}, they give {average}, but the \
+         mean is {mean}; so in {values} of {of} values"
+    )]
+    Contradiction {
+        /// Layer, such as `color` or `albedo`.
+        layer: String,
+        /// `halves` or `parts`.
+        made_of: &'static str,
+        /// Column of the worst value.
+        x: usize,
+        /// Row of the worst value.
+        y: usize,
+        /// Its channel, from 0.
+        channel: usize,
+        /// Its mean as stated.
+        mean: f64,
+        /// What halves or parts give: (n_A·A + n_B·B)/n.
+        average: f64,
+        /// Values that disagree beyond the precision of the buffers.
+        values: usize,
+        /// Values that were compared.
+        of: usize,
     },
     /// A reference needs independently randomised parts.
     #[error("a reference needs at least {least} independent parts, {got} were given")]

@@ -90,6 +90,8 @@ pub enum FindingKind {
     UnknownVariance,
     /// So many variances are unknown that the frame is taken to have none. Value: pixels.
     VarianceDropped,
+    /// Half-buffer values that are unknown and were made up so that the halves still average to the mean. Value: pixels.
+    UnknownHalves,
     /// So many values of the half buffers are unknown that the frame is taken to have none. Value: pixels.
     HalvesDropped,
     /// Colours that are not finite and were filled from neighbours or left out. Value: pixels.
@@ -98,6 +100,8 @@ pub enum FindingKind {
     InvalidFeature,
     /// A channel or layer that could not be used and was left out.
     LayerLeftOut,
+    /// A layer whose channels have other names than its own, taken for them.
+    LayerReadAs,
     /// A layer that no method reads, with the name that it may have been meant to have.
     UnreadLayer,
     /// Values of an output that are not finite. Value: how many.
@@ -137,12 +141,13 @@ impl FindingKind {
             | Self::VarianceOverflow
             | Self::UnknownVariance
             | Self::VarianceDropped
+            | Self::UnknownHalves
             | Self::HalvesDropped
             | Self::InvalidPixels
             | Self::NonFiniteOutput
             | Self::DamagedFile
             | Self::InvalidFeature => Severity::Limitation,
-            Self::LayerLeftOut | Self::UnreadLayer | Self::DebugBuild => Severity::Notice,
+            Self::LayerLeftOut | Self::LayerReadAs | Self::UnreadLayer | Self::DebugBuild => Severity::Notice,
         }
     }
 }

@@ -2,7 +2,7 @@ use noisefloor_denoiser::{DenoiseError, Denoiser, Entry, Input, MethodCard, Outp
 use noisefloor_frame::{FeatureId, Frame};
 use rayon::prelude::*;
 
-use crate::corrected::{describe, needs, no_variance, planar};
+use crate::corrected::{alternatives, describe, needs, no_variance, planar};
 use crate::guides::Tests;
 use crate::{AsWrittenParams, CITATION, radius};
 
@@ -46,6 +46,7 @@ impl Denoiser for GeometricAsWritten {
         let p = &self.params;
         card.needs =
             needs(Tests { material_ids: p.material_ids, depth: p.depth_test, normal: p.normal_test });
+        card.alternatives = alternatives();
         card.notes.push("a fixture that keeps the slides' slips: no baseline, sets no axis".into());
         card.notes.push("undefined wherever the variance is zero".into());
         card

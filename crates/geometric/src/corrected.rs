@@ -1,5 +1,6 @@
 use noisefloor_denoiser::{
-    DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Need, Output, StageTimer, build_with,
+    Alternative, DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Need, Output, StageTimer,
+    build_with,
 };
 use noisefloor_frame::{FeatureId, Image};
 use rayon::prelude::*;
@@ -52,6 +53,16 @@ pub(crate) fn needs(tests: Tests) -> Vec<Need> {
     [Need::ColorVariance, Need::Samples(2)].into_iter().chain(features).collect()
 }
 
+/// The switches of the tests, for frames without the feature. Both variants call them alike.
+pub(crate) fn alternatives() -> Vec<Alternative> {
+    let switches = [
+        ("material_ids", FeatureId::Material),
+        ("depth_test", FeatureId::Depth),
+        ("normal_test", FeatureId::Normal),
+    ];
+    switches.map(|(name, id)| Alternative::new(name, false, [Need::Feature(id)])).into()
+}
+
 /// Rows of RGB triples to a planar image.
 pub(crate) fn planar(rows: &[Vec<[f32; 3]>], width: usize) -> Image {
     Image::from_fn(width, rows.len(), 3, |c, x, y| rows[y][x][c])
@@ -74,6 +85,7 @@ impl Denoiser for GeometricCorrected {
     fn card(&self) -> MethodCard {
         let mut card = MethodCard::new(ID, "Geometric, corrected", CITATION);
         card.needs = needs(self.tests());
+        card.alternatives = alternatives();
         card.claims.consistent = self.params.spread != Spread::SampleVariance;
         card.notes.push(match self.params.spread {
             Spread::SampleVariance => {
@@ -123,7 +135,11 @@ impl Denoiser for GeometricCorrected {
 
 /// For a frame whose variance vanished between check and use, which cannot be; kept as an error all the same.
 pub(crate) fn no_variance(card: &MethodCard) -> DenoiseError {
-    DenoiseError::MissingInputs { method: card.id.clone(), missing: vec![Need::ColorVariance] }
+    DenoiseError::MissingInputs {
+        method: card.id.clone(),
+        missing: vec![Need::ColorVariance],
+        ways_out: Vec::new(),
+    }
 }
 
 impl GeometricCorrected {

@@ -104,6 +104,14 @@ pub enum HarnessError {
         /// Which buffer.
         source: noisefloor_frame::FrameError,
     },
+    /// A frame contradicts itself or has no image in it; its cells fail, the study goes on.
+    #[error("{frame}: {source}")]
+    Unsound {
+        /// Scene, and file or level and replicate.
+        frame: String,
+        /// What is wrong.
+        source: noisefloor_frame::FrameError,
+    },
     /// A reference or its classes cannot be measured against.
     #[error("scene `{scene}`: {source}")]
     Metric {

@@ -45,6 +45,7 @@ impl Plan {
         for spec in &study.scenes {
             let mut scene = Scene::open(study, spec, size, &recorded)?;
             scene.rows = self::rows(study, registry, Some(spec), &mut fingerprints)?;
+            known_features(study, &scene)?;
             scene.open_beside(study, spec, size, &recorded)?;
             scenes.push(scene);
         }
@@ -83,6 +84,25 @@ impl Plan {
 /// Diagnostics are kept for one replicate at the levels that the viewer shows.
 pub(crate) fn wants_diagnostics(study: &Study, frame: &FrameSpec) -> bool {
     frame.replicate == 0 && (study.viewer_spp.is_empty() || study.viewer_spp.contains(&frame.spp))
+}
+
+/// Features that rows name must mean something: a misspelt one would run without and say nothing.
+fn known_features(study: &Study, scene: &Scene) -> Result<(), HarnessError> {
+    for (row, line) in scene.rows.iter().zip(study.methods.iter().map(|row| row.line)) {
+        let there = scene.extra_features.iter().map(String::as_str);
+        if let Some((name, nearest)) = row.card.unknown_feature(there) {
+            return Err(HarnessError::Field {
+                place: Place { file: format!("study `{}`", study.name), line },
+                field: format!("row `{}`: feature on scene `{}`", row.label, scene.id),
+                value: format!("`{name}`"),
+                allowed: format!(
+                    "features with a fixed meaning or in the scene's files; nearest: {}",
+                    nearest.join(", ")
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// Frames of a sequence are compared pixel by pixel.

@@ -178,7 +178,9 @@ fn measure_again<'a>(
         record.metrics = measured.values;
         (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
         record.classes = measured.classes;
-        record.non_finite.output_values = measured.non_finite_values;
+        // Pixels that were invalid on input are marked in the kept image, in all channels.
+        let marked = 3 * record.non_finite.input_pixels;
+        record.non_finite.output_values = measured.non_finite_values.saturating_sub(marked);
         if record.metrics_reference_se.is_empty() {
             record.metrics_reference_se = measured.reference_se;
         }

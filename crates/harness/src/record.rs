@@ -85,7 +85,8 @@ pub struct Record {
     /// only when the study has one replicate.
     #[serde(default)]
     pub ratio_within_se: BTreeMap<String, f64>,
-    /// Pixels that the metrics are over: those where input, output and reference are finite. 0 in records that do not say.
+    /// Pixels that the metrics are over: those where input, output and reference are finite. 0 in records that do not
+    /// say.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub pixels: u64,
     /// Pixels of the whole image. 0 in records that do not say.
@@ -198,9 +199,9 @@ impl EstimateMeans {
 /// Non-finite values met.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NonFinite {
-    /// Invalid pixels of the input frame, filled before denoising.
+    /// Pixels of the input frame whose colour is not finite: filled for methods that look across, and in no number.
     pub input_pixels: usize,
-    /// Negative variances set to zero.
+    /// Negative variances, taken as unknown.
     pub negative_variances: usize,
     /// Non-finite values in the output; these pixels are counted, and left out of the metrics.
     pub output_values: usize,

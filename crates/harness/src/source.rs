@@ -4,9 +4,9 @@ mod classes;
 mod folder;
 mod rendered;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::{Frame, Reference, Sampling};
+use noisefloor_frame::{Fidelity, Finding, Frame, Hygiene, Reference, Sampling};
 use noisefloor_render::{Keep, Quantity};
 use noisefloor_synthetic::SyntheticScene;
 use serde_json::json;
@@ -55,6 +55,23 @@ impl FrameSpec {
     }
 }
 
+/// A noisy frame that was checked, see [`Frame::inspect`]: methods may look at it.
+#[derive(Debug, Clone)]
+pub(crate) struct Checked {
+    pub(crate) frame: Frame,
+    /// What was found and mended.
+    pub(crate) hygiene: Hygiene,
+    /// Scene, and file or level and replicate.
+    name: String,
+}
+
+impl Checked {
+    /// What was found, with the frame's name.
+    pub(crate) fn findings(&self) -> Vec<Finding> {
+        self.hygiene.findings.iter().cloned().map(|finding| finding.within(&self.name)).collect()
+    }
+}
+
 /// A scene of a study, opened.
 pub(crate) struct Scene {
     pub(crate) id: String,
@@ -66,6 +83,10 @@ pub(crate) struct Scene {
     pub(crate) sampling: Sampling,
     pub(crate) settings: BTreeMap<String, String>,
     pub(crate) frames: Vec<FrameSpec>,
+    /// What the headers of its files show.
+    pub(crate) findings: Vec<Finding>,
+    /// Names of the layers in its files that have no fixed meaning.
+    pub(crate) extra_features: BTreeSet<String>,
     /// Hash of all that determines the reference.
     pub(crate) reference_key: Key,
     /// Samples per pixel of the reference; 0 if exact or unknown.
@@ -188,31 +209,62 @@ impl Scene {
         pixels * (frames.sum::<u64>() + parts)
     }
 
-    /// Renders, draws or reads a frame; `row` is who steers it, if it is adaptive.
+    /// Renders, draws or reads a frame, and checks it; `row` is who steers it, if it is adaptive.
     pub(crate) fn frame(
         &self,
         spec: &FrameSpec,
         row: Option<&Row>,
         cache: &Cache,
         observer: &dyn Observer,
-    ) -> Result<Frame, HarnessError> {
-        match &self.source {
-            Source::Rendered(rendered) => rendered.frame(spec, row, cache, observer),
-            Source::Synthetic(scene) => Ok(scene.render(spec.spp, spec.seed)),
-            Source::Imported(folder) => folder.frame(spec, observer),
+    ) -> Result<Checked, HarnessError> {
+        let (mut frame, fidelity, name) = match &self.source {
+            Source::Rendered(rendered) => {
+                let frame = rendered.frame(spec, row, cache, observer)?;
+                (frame, Fidelity::Rounded, self.name_of(spec, row))
+            }
+            Source::Synthetic(scene) => {
+                let frame = scene.render(spec.spp, spec.seed);
+                (frame, Fidelity::Rounded, self.name_of(spec, row))
+            }
+            Source::Imported(folder) => {
+                let (file, name) = folder.frame(spec)?;
+                // What its header shows was told with the scene.
+                (file.frame, file.fidelity, format!("{}: {name}", self.id))
+            }
+        };
+        match frame.inspect(fidelity) {
+            Ok(hygiene) => Ok(Checked { frame, hygiene, name }),
+            Err(source) => Err(HarnessError::Unsound { frame: name, source }),
         }
     }
 
-    /// Renders or reads the reference.
+    /// Scene, level and replicate of a frame, and the row if the frame is its own.
+    fn name_of(&self, spec: &FrameSpec, row: Option<&Row>) -> String {
+        let name = format!("{} at {} spp, replicate {}", self.id, spec.spp, spec.replicate);
+        match (spec.kind, row) {
+            (FrameKind::Adaptive(_), Some(row)) => format!("{name}, frame of {}", row.label),
+            (FrameKind::Samples(spp), _) => format!("{name}, frame of {spp} samples"),
+            _ => name,
+        }
+    }
+
+    /// Renders or reads the reference, with what was found about it.
+    ///
+    /// # Errors
+    /// [`HarnessError::Image`] also for one that contradicts itself.
     pub(crate) fn reference(
         &self,
         cache: &Cache,
         observer: &dyn Observer,
-    ) -> Result<Reference, HarnessError> {
+    ) -> Result<(Reference, Vec<Finding>), HarnessError> {
         match &self.source {
-            Source::Rendered(rendered) => rendered.reference(&self.id, cache, observer),
-            Source::Synthetic(scene) => Ok(scene.truth()),
-            Source::Imported(folder) => folder.reference(),
+            Source::Rendered(rendered) => Ok((rendered.reference(&self.id, cache, observer)?, Vec::new())),
+            Source::Synthetic(scene) => Ok((scene.truth(), Vec::new())),
+            Source::Imported(folder) => {
+                let (reference, found) = folder.reference()?;
+                let name = format!("{}: reference", self.id);
+                Ok((reference, found.into_iter().map(|finding| finding.within(&name)).collect()))
+            }
         }
     }
 
@@ -265,6 +317,8 @@ fn synthetic(
         sampling: Sampling::Independent,
         settings,
         frames,
+        findings: Vec::new(),
+        extra_features: BTreeSet::new(),
         reference_key: key_of(&json!({ "truth": description, "drawn": truth })),
         reference_spp: 0,
         reference_sampling: "exact".into(),

@@ -46,6 +46,8 @@ pub(crate) struct Opened {
     /// In file order.
     pub(crate) channels: Vec<Channel>,
     pub(crate) attributes: Attributes,
+    /// Whether the compression changes numbers by more than rounding them.
+    pub(crate) lossy: bool,
     reader: Reader<Watched>,
     ended: Rc<Cell<bool>>,
 }
@@ -92,8 +94,13 @@ impl Opened {
             name: decode_text(channel.name.as_slice()),
             kind: channel.sample_type,
         };
+        let lossy = matches!(
+            header.compression,
+            Compression::B44 | Compression::B44A | Compression::DWAA(_) | Compression::DWAB(_)
+        );
         Ok(Self {
             file: file.to_owned(),
+            lossy,
             width: header.layer_size.width(),
             height: header.layer_size.height(),
             channels: header.channels.list.iter().map(describe).collect(),

@@ -1,34 +1,55 @@
 //! Which channels of a file form which buffer.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
-use noisefloor_frame::Image;
+use noisefloor_frame::{FeatureId, Finding, FindingKind, Image};
 
 use crate::IoError;
+use crate::aliases;
+use crate::arrange::arrange;
 use crate::decode::{Buffers, Opened, Target};
 use crate::names::{Layer, Statistic, missing_of_rgb, parse, sort_by_plane, title};
 
 type Key = (Layer, Statistic);
 
-/// The layers of a file: indices of their channels in the file, in plane order.
+/// Statistics of a layer that mean nothing without another.
+pub(crate) const NEEDED_BY: [(Statistic, Statistic); 5] = [
+    (Statistic::Variance, Statistic::Mean),
+    (Statistic::HalfA, Statistic::Mean),
+    (Statistic::HalfB, Statistic::Mean),
+    (Statistic::HalfB, Statistic::HalfA),
+    (Statistic::HalfA, Statistic::HalfB),
+];
+
+/// The layers of a file that can be used.
 #[derive(Debug)]
-pub(crate) struct Layers(BTreeMap<Key, Vec<usize>>);
+pub(crate) struct Layers {
+    /// Indices of their channels in the file, in plane order.
+    found: BTreeMap<Key, Vec<usize>>,
+    /// What was left out, or read under another name.
+    pub(crate) findings: Vec<Finding>,
+}
+
+/// Whether a layer decides what the colour of a frame or a reference is: where it is wrong, so is the frame.
+/// Everything else that cannot be used is left out and told.
+fn is_core(layer: &Layer) -> bool {
+    matches!(layer, Layer::Color | Layer::Samples | Layer::Part(_))
+}
 
 impl Layers {
     /// Sorts the channels of the wanted layers by layer and checks that each layer is complete.
-    pub(crate) fn find(opened: &Opened, wanted: impl Fn(&Layer) -> bool) -> Result<Self, IoError> {
+    pub(crate) fn find(opened: &Opened, wanted: impl Fn(&Layer, Statistic) -> bool) -> Result<Self, IoError> {
         let file = &opened.file;
+        let mut findings = Vec::new();
         let mut named: BTreeMap<Key, Vec<(String, usize)>> = BTreeMap::new();
         for (index, channel) in opened.channels.iter().enumerate() {
-            let (layer, statistic, piece) = parse(&channel.name).map_err(|why| IoError::Mislabelled {
-                file: file.clone(),
-                layer: channel.name.rsplit_once('.').map_or("", |(layer, _)| layer).to_owned(),
-                channel: channel.name.clone(),
-                why: why.to_owned(),
-            })?;
-            if wanted(&layer) {
-                named.entry((layer, statistic)).or_default().push((piece, index));
+            match parse(&channel.name) {
+                Ok((layer, statistic, piece)) if wanted(&layer, statistic) => {
+                    named.entry((layer, statistic)).or_default().push((piece, index));
+                }
+                Ok(_) => {}
+                Err(why) => findings.push(left_out(&channel.name, why)),
             }
         }
         let free_sets: BTreeMap<Layer, Vec<String>> = named
@@ -39,42 +60,85 @@ impl Layers {
                 (layer.clone(), channels.iter().map(|(name, _)| name.clone()).collect())
             })
             .collect();
-        let mut out = BTreeMap::new();
+        let mut found = BTreeMap::new();
         for ((layer, statistic), channels) in named {
-            let order = match layer.channels() {
+            let order: Vec<String> = match layer.channels() {
                 Some(fixed) => fixed.iter().map(|&name| name.to_owned()).collect(),
                 // The statistics of a freely named feature have the channels of its mean. Without a mean they mean
-                // nothing, which is for the caller to notice.
+                // nothing, and are left out below.
                 None => free_sets.get(&layer).cloned().unwrap_or_default(),
             };
-            let layer_title = || title(&layer, statistic);
-            if layer.channels().is_none()
-                && let Some(channel) = missing_of_rgb(order.iter().map(String::as_str))
-            {
-                let (channel, expected) = (channel.to_owned(), "R, G, B".to_owned());
-                return Err(IoError::IncompleteLayer {
-                    file: file.clone(),
-                    layer: layer_title(),
-                    channel,
-                    expected,
-                });
+            let layer_title = title(&layer, statistic);
+            let part = layer.channels().is_none().then(|| missing_of_rgb(order.iter().map(String::as_str)));
+            if let Some(Some(channel)) = part {
+                findings.push(left_out(&layer_title, &format!("it has no channel `{channel}`")));
+                continue;
             }
-            let indices = if order.is_empty() {
-                channels.iter().map(|(_, index)| *index).collect()
-            } else {
-                arrange(file, layer_title, &channels, &order)?
-            };
-            out.insert((layer, statistic), indices);
+            if order.is_empty() {
+                found.insert((layer, statistic), channels.iter().map(|(_, index)| *index).collect());
+                continue;
+            }
+            match arrange(&channels, &order, !is_core(&layer)) {
+                Ok(arranged) => {
+                    findings
+                        .extend(arranged.words.map(|(kind, text)| Finding::new(kind, &layer_title, text)));
+                    found.insert((layer, statistic), arranged.indices);
+                }
+                Err(problem) if is_core(&layer) => return Err(problem.error(file, layer_title, &order)),
+                Err(problem) => findings.push(left_out(&layer_title, &problem.words())),
+            }
         }
-        Ok(Self(out))
+        let mut layers = Self { found, findings };
+        layers.prune();
+        layers.point_out();
+        Ok(layers)
+    }
+
+    /// Leaves out statistics without the layers that give them a meaning, and half a flash image.
+    fn prune(&mut self) {
+        let layers: BTreeSet<Layer> =
+            self.found.keys().map(|(layer, _)| layer.clone()).filter(|layer| !is_core(layer)).collect();
+        for layer in &layers {
+            for (one, other) in NEEDED_BY {
+                self.drop_without(layer, one, (layer, other));
+            }
+        }
+        let parts = [Layer::FlashBase, Layer::FlashLight, Layer::FlashCovariance];
+        for (one, other) in [(0, 1), (1, 0), (2, 0), (2, 1)] {
+            for statistic in Statistic::ALL {
+                self.drop_without(&parts[one], statistic, (&parts[other], Statistic::Mean));
+            }
+        }
+    }
+
+    fn drop_without(&mut self, layer: &Layer, statistic: Statistic, needed: (&Layer, Statistic)) {
+        let key = (layer.clone(), statistic);
+        if !self.found.contains_key(&(needed.0.clone(), needed.1)) && self.found.remove(&key).is_some() {
+            let why = format!("there is no `{}`", title(needed.0, needed.1));
+            self.findings.push(left_out(&title(layer, statistic), &why));
+        }
+    }
+
+    /// Points out layers that no method reads by default and that look like ones that they do read.
+    fn point_out(&mut self) {
+        let titles = self.titles();
+        for (layer, statistic) in self.found.keys() {
+            if let (Layer::Feature(FeatureId::Extra(name)), Statistic::Mean) = (layer, statistic)
+                && let Some(ours) = aliases::meant(name)
+            {
+                let there = titles.contains(&ours) || titles.contains(&format!("color.{ours}"));
+                let text = aliases::words(&ours, there);
+                self.findings.push(Finding::new(FindingKind::UnreadLayer, name, text));
+            }
+        }
     }
 
     pub(crate) fn get(&self, layer: &Layer, statistic: Statistic) -> Option<&[usize]> {
-        self.0.get(&(layer.clone(), statistic)).map(Vec::as_slice)
+        self.found.get(&(layer.clone(), statistic)).map(Vec::as_slice)
     }
 
     pub(crate) fn keys(&self) -> impl Iterator<Item = &Key> {
-        self.0.keys()
+        self.found.keys()
     }
 
     pub(crate) fn titles(&self) -> Vec<String> {
@@ -90,7 +154,7 @@ impl Layers {
         let mut targets = vec![Target::Skip; opened.channels.len()];
         let (mut floats, mut counts) = (BTreeMap::new(), BTreeMap::new());
         let mut planes = Vec::new();
-        for ((layer, statistic), channels) in self.0 {
+        for ((layer, statistic), channels) in self.found {
             if layer == Layer::Samples {
                 targets[channels[0]] = Target::Count { buffer: counts.len() };
                 counts.insert(statistic, counts.len());
@@ -107,31 +171,8 @@ impl Layers {
     }
 }
 
-/// Brings channels into the given order.
-fn arrange(
-    file: &std::path::Path,
-    layer: impl Fn() -> String,
-    channels: &[(String, usize)],
-    order: &[String],
-) -> Result<Vec<usize>, IoError> {
-    let file = || file.to_owned();
-    for (k, (name, _)) in channels.iter().enumerate() {
-        if !order.contains(name) {
-            let (channel, expected) = (name.clone(), order.join(", "));
-            return Err(IoError::UnexpectedChannel { file: file(), layer: layer(), channel, expected });
-        }
-        if channels[..k].iter().any(|(earlier, _)| earlier == name) {
-            return Err(IoError::DuplicateChannel { file: file(), layer: layer(), channel: name.clone() });
-        }
-    }
-    let find = |wanted: &String| {
-        let found = channels.iter().find(|(name, _)| name == wanted);
-        found.map(|(_, index)| *index).ok_or_else(|| {
-            let (channel, expected) = (wanted.clone(), order.join(", "));
-            IoError::IncompleteLayer { file: file(), layer: layer(), channel, expected }
-        })
-    };
-    order.iter().map(find).collect()
+fn left_out(what: &str, why: &str) -> Finding {
+    Finding::new(FindingKind::LayerLeftOut, what, format!("left out: {why}"))
 }
 
 /// The decoded layers of a file, to be taken one by one.

@@ -13,12 +13,14 @@
 //! anything else as text under its own name. `renderSeconds` and `renderThreads` are read and not written: what a clock
 //! said is no part of a frame, and equal frames are equal files.
 //!
-//! Numbers round-trip bit for bit. Writes are atomic. Files may come from strangers: whatever is in them, reading
+//! Numbers round-trip bit for bit. Writes are atomic. Frames that numbers are made from are read with
+//! [`read_checked_frame`]. Files may come from strangers: whatever is in them, reading
 //! ends in a frame or in an [`IoError`] that names file, layer and channel.
 
+mod aliases;
+mod arrange;
 mod atomic;
 mod attributes;
-mod check;
 mod decode;
 mod destination;
 mod encode;
@@ -30,11 +32,11 @@ mod read;
 mod write;
 
 pub use atomic::write_atomically;
-pub use check::{LostFactor, VarianceScaleWarning, check_variance_scale};
 pub use destination::{Destination, same_file};
 pub use error::IoError;
 pub use folder::{FolderFrame, FrameFolder, scan_scenes};
 pub use read::{
-    FileInfo, ReadOptions, read_attributes, read_color, read_frame, read_image, read_info, read_reference,
+    FileInfo, FrameFile, ReadOptions, read_attributes, read_checked_frame, read_checked_reference,
+    read_color, read_frame, read_frame_file, read_image, read_info, read_reference,
 };
 pub use write::{write_frame, write_image, write_reference};

@@ -31,7 +31,7 @@ pub(crate) enum Statistic {
 impl Statistic {
     pub(crate) const ALL: [Self; 4] = [Self::Mean, Self::Variance, Self::HalfA, Self::HalfB];
 
-    fn suffix(self) -> &'static str {
+    pub(crate) fn suffix(self) -> &'static str {
         match self {
             Self::Mean => "",
             Self::Variance => "variance",

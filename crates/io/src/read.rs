@@ -2,12 +2,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_frame::{
-    Counts, Estimate, FeatureId, Flash, Frame, Image, Provenance, Reference, Samples, Sampling, Variance,
+    Counts, Estimate, FeatureId, Fidelity, Finding, Flash, Frame, Hygiene, Image, Provenance, Reference,
+    Samples, Sampling, Variance, sorted_findings,
 };
 
 use crate::attributes::{self, Facts};
 use crate::decode::{Opened, Target};
-use crate::layers::{Layers, Planned};
+use crate::layers::{Layers, NEEDED_BY, Planned};
 use crate::names::{Layer, Statistic, missing_of_rgb, sort_by_plane, title};
 use crate::{IoError, write};
 
@@ -34,6 +35,19 @@ pub struct FileInfo {
     pub sampling: Sampling,
     /// Origin.
     pub provenance: Provenance,
+    /// Layers and channels that were left out or read under another name, and layers that look like others.
+    pub findings: Vec<Finding>,
+}
+
+/// A frame as a file has it, with what was found about its layers.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameFile {
+    /// The frame; values as they are.
+    pub frame: Frame,
+    /// Layers and channels that were left out or read under another name, and layers that look like others.
+    pub findings: Vec<Finding>,
+    /// What the file's compression did to the numbers.
+    pub fidelity: Fidelity,
 }
 
 /// Reads the header of a file and checks its channel names.
@@ -42,10 +56,11 @@ pub struct FileInfo {
 /// As [`read_frame`], as far as the header shows them; a missing `spp` is none.
 pub fn read_info(path: impl AsRef<Path>) -> Result<FileInfo, IoError> {
     let opened = Opened::open(path.as_ref())?;
-    let layers = Layers::find(&opened, |_| true)?;
+    let layers = Layers::find(&opened, |_, _| true)?;
     let Facts { provenance, spp, sampling, .. } = attributes::facts(&opened.file, &opened.attributes)?;
     let (width, height) = (opened.width, opened.height);
-    Ok(FileInfo { width, height, layers: layers.titles(), spp, sampling, provenance })
+    let (titles, findings) = (layers.titles(), layers.findings);
+    Ok(FileInfo { width, height, layers: titles, spp, sampling, provenance, findings })
 }
 
 /// Reads all header attributes that are text or numbers, as text.
@@ -65,14 +80,44 @@ pub fn read_attributes(path: impl AsRef<Path>) -> Result<BTreeMap<String, String
 ///
 /// Samples per pixel come from the layer `samples`, else from the attribute `spp` (integer, float or text), else from
 /// `samplesPerPixel`, else from `options`. If the attribute `sampling` is missing it follows from the sampler's name:
-/// `independent…`, `random…` and a missing name mean independent, anything else low discrepancy.
-/// Values are taken as they are: NaN, infinities and negative variances are for [`Frame::sanitize`].
+/// `independent…`, `random…` and a missing name mean independent, anything else low discrepancy. A layer of a feature
+/// or of the flash that is incomplete or mislabelled does not cost the frame: it is left out. Channels of another
+/// usual name are taken for the layer's own (`normal.R` for `normal.X`), channels beyond are left out.
+/// [`read_frame_file`] tells. Values are taken as they are: whoever makes numbers from them reads with
+/// [`read_checked_frame`].
 ///
 /// # Errors
 /// [`IoError`] naming file, layer and channel: unreadable, not EXR, truncated, malformed, unsupported or too large;
-/// layers that are incomplete, mislabelled, doubled or in conflict; attributes without meaning; no sample count.
+/// colour, its statistics or sample counts that are incomplete, mislabelled or doubled; two kinds of flash;
+/// attributes without meaning; no sample count.
 pub fn read_frame(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Frame, IoError> {
-    Ok(read_parts(path.as_ref(), options, false)?.frame)
+    Ok(read_frame_file(path, options)?.frame)
+}
+
+/// Reads a frame like [`read_frame`], with what was found about its layers.
+///
+/// # Errors
+/// As [`read_frame`].
+pub fn read_frame_file(path: impl AsRef<Path>, options: &ReadOptions) -> Result<FrameFile, IoError> {
+    let (reference, findings, fidelity) = read_parts(path.as_ref(), options, false)?;
+    Ok(FrameFile { frame: reference.frame, findings, fidelity })
+}
+
+/// Reads a frame and checks it, see [`Frame::inspect`]: a method may look at it. The findings are those about its
+/// layers and its values.
+///
+/// # Errors
+/// As [`read_frame`]; [`IoError::Frame`] for buffers that contradict each other and for a frame without a valid pixel.
+pub fn read_checked_frame(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<(Frame, Hygiene), IoError> {
+    let path = path.as_ref();
+    let FrameFile { mut frame, mut findings, fidelity } = read_frame_file(path, options)?;
+    let mut hygiene = frame.inspect(fidelity).map_err(|cause| IoError::frame(path, cause))?;
+    findings.append(&mut hygiene.findings);
+    hygiene.findings = sorted_findings(findings);
+    Ok((frame, hygiene))
 }
 
 /// Reads a reference: a frame, and the parts if the file has them. Any frame is also a reference without parts.
@@ -80,7 +125,21 @@ pub fn read_frame(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Frame
 /// # Errors
 /// As [`read_frame`]; [`IoError::MissingLayer`] also if the parts are not numbered without gaps from `part0`.
 pub fn read_reference(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Reference, IoError> {
-    read_parts(path.as_ref(), options, true)
+    Ok(read_parts(path.as_ref(), options, true)?.0)
+}
+
+/// Reads a reference and checks it, see [`Reference::inspect`]: errors may be measured against it.
+///
+/// # Errors
+/// As [`read_reference`]; [`IoError::Frame`] for buffers that contradict each other.
+pub fn read_checked_reference(
+    path: impl AsRef<Path>,
+    options: &ReadOptions,
+) -> Result<(Reference, Vec<Finding>), IoError> {
+    let path = path.as_ref();
+    let (mut reference, mut findings, fidelity) = read_parts(path, options, true)?;
+    findings.extend(reference.inspect(fidelity).map_err(|cause| IoError::frame(path, cause))?);
+    Ok((reference, sorted_findings(findings)))
 }
 
 /// Reads the channels without a layer as an image: those that [`crate::write_image`] writes, in its order. From a
@@ -111,7 +170,8 @@ pub fn read_image(path: impl AsRef<Path>) -> Result<Image, IoError> {
 /// As [`read_frame`], for those channels alone.
 pub fn read_color(path: impl AsRef<Path>) -> Result<Image, IoError> {
     let opened = Opened::open(path.as_ref())?;
-    let layers = Layers::find(&opened, |layer| *layer == Layer::Color)?;
+    let layers =
+        Layers::find(&opened, |layer, statistic| (layer, statistic) == (&Layer::Color, Statistic::Mean))?;
     match layers.get(&Layer::Color, Statistic::Mean) {
         Some(channels) => decode_planes(opened, channels),
         None => Err(missing(&opened.file, &Layer::Color, Statistic::Mean, "a colour image")),
@@ -133,18 +193,24 @@ fn missing(file: &Path, layer: &Layer, statistic: Statistic, needed_by: &str) ->
     IoError::MissingLayer { file: file.to_owned(), layer, needed_by }
 }
 
-fn read_parts(path: &Path, options: &ReadOptions, with_parts: bool) -> Result<Reference, IoError> {
+fn read_parts(
+    path: &Path,
+    options: &ReadOptions,
+    with_parts: bool,
+) -> Result<(Reference, Vec<Finding>, Fidelity), IoError> {
     let opened = Opened::open(path)?;
-    let layers = Layers::find(&opened, |layer| with_parts || !matches!(layer, Layer::Part(_)))?;
+    let fidelity = if opened.lossy { Fidelity::Lossy } else { Fidelity::Rounded };
+    let mut layers = Layers::find(&opened, |layer, _| with_parts || !matches!(layer, Layer::Part(_)))?;
     let facts = attributes::facts(path, &opened.attributes)?;
     // Everything that names alone decide comes before the decoder's work.
     let features = feature_ids(&layers);
-    check_layers(path, &layers, &features)?;
+    check_layers(path, &layers)?;
     if facts.spp.is_none() && options.spp.is_none() && layers.get(&Layer::Samples, Statistic::Mean).is_none()
     {
         return Err(IoError::MissingSpp { file: path.to_owned() });
     }
     let width = opened.width;
+    let findings = std::mem::take(&mut layers.findings);
     let mut planned = layers.decode(opened)?;
     let samples = samples(path, &facts, options, &mut planned)?;
     write::check_counts(path, &samples, width)?;
@@ -160,7 +226,7 @@ fn read_parts(path: &Path, options: &ReadOptions, with_parts: bool) -> Result<Re
         parts.push(part);
     }
     frame.check().map_err(|cause| IoError::frame(path, cause))?;
-    Ok(Reference { frame, parts })
+    Ok((Reference { frame, parts }, findings, fidelity))
 }
 
 fn feature_ids(layers: &Layers) -> BTreeSet<FeatureId> {
@@ -171,38 +237,22 @@ fn feature_ids(layers: &Layers) -> BTreeSet<FeatureId> {
     features.collect()
 }
 
-/// Checks that every layer has the layers that give it a meaning.
-fn check_layers(file: &Path, layers: &Layers, features: &BTreeSet<FeatureId>) -> Result<(), IoError> {
+/// Checks that colour and parts have the layers that give them a meaning.
+fn check_layers(file: &Path, layers: &Layers) -> Result<(), IoError> {
     let has = |layer: &Layer, statistic| layers.get(layer, statistic).is_some();
     let mean = Statistic::Mean;
     if !has(&Layer::Color, mean) {
         return Err(missing(file, &Layer::Color, mean, "a frame"));
     }
-    let flash = [Layer::FlashBase, Layer::FlashLight, Layer::FlashReady];
-    for layer in features.iter().cloned().map(Layer::Feature).chain(flash).chain([Layer::Color]) {
-        for (one, other) in [
-            (Statistic::Variance, mean),
-            (Statistic::HalfA, mean),
-            (Statistic::HalfB, Statistic::HalfA),
-            (Statistic::HalfA, Statistic::HalfB),
-        ] {
-            if has(&layer, one) && !has(&layer, other) {
-                return Err(missing(file, &layer, other, &format!("`{}`", title(&layer, one))));
-            }
+    // The other layers were left out where something is missing.
+    for (one, other) in NEEDED_BY {
+        if has(&Layer::Color, one) && !has(&Layer::Color, other) {
+            return Err(missing(file, &Layer::Color, other, &format!("`{}`", title(&Layer::Color, one))));
         }
     }
-    let parts = [Layer::FlashBase, Layer::FlashLight, Layer::FlashCovariance];
-    let present: Vec<&Layer> = parts.iter().filter(|layer| has(layer, mean)).collect();
-    if let Some(first) = present.first() {
-        if has(&Layer::FlashReady, mean) {
-            let (layer, other) = (title(first, mean), title(&Layer::FlashReady, mean));
-            return Err(IoError::ConflictingLayers { file: file.to_owned(), layer, other });
-        }
-        for needed in &parts[..2] {
-            if !has(needed, mean) {
-                return Err(missing(file, needed, mean, &format!("`{}`", title(first, mean))));
-            }
-        }
+    if has(&Layer::FlashBase, mean) && has(&Layer::FlashReady, mean) {
+        let (layer, other) = (title(&Layer::FlashBase, mean), title(&Layer::FlashReady, mean));
+        return Err(IoError::ConflictingLayers { file: file.to_owned(), layer, other });
     }
     let count = layers.keys().filter(|(layer, _)| matches!(layer, Layer::Part(_))).count();
     match (0..count).map(Layer::Part).find(|part| !has(part, mean)) {

@@ -4,10 +4,10 @@ mod common;
 
 use std::path::PathBuf;
 
-use noisefloor_frame::{FeatureId, Sampling, SquaredError, Variance};
+use noisefloor_frame::{FeatureId, Fidelity, FindingKind, Sampling, SquaredError, Variance};
 use noisefloor_io::{
-    FrameFolder, ReadOptions, check_variance_scale, read_attributes, read_frame, read_info, read_reference,
-    scan_scenes, write_frame,
+    FrameFolder, ReadOptions, read_attributes, read_checked_frame, read_checked_reference, read_frame,
+    read_info, read_reference, scan_scenes, write_frame,
 };
 
 fn fixture(name: &str) -> PathBuf {
@@ -50,14 +50,16 @@ fn halves_average_to_the_mean() {
 }
 
 #[test]
-fn variance_is_that_of_the_mean_and_a_lost_factor_would_be_noticed() {
-    let mut frame = read_frame(fixture("spp0016.exr"), &ReadOptions::default()).unwrap();
-    assert_eq!(check_variance_scale(&frame), None);
+fn the_frame_is_sound_and_a_lost_factor_would_be_noticed() {
+    let (mut frame, hygiene) = read_checked_frame(fixture("spp0016.exr"), &ReadOptions::default()).unwrap();
+    assert_eq!(hygiene.findings, []);
+    assert_eq!(frame, read_frame(fixture("spp0016.exr"), &ReadOptions::default()).unwrap());
     let stored = frame.color.variance.take().unwrap().into_mean_variance();
     frame.color.variance = Some(Variance::of_mean(stored.map(|v| v * 16.0)));
-    let warning =
-        check_variance_scale(&frame).expect("the variance of one sample under the name of the mean's");
-    assert!(warning.ratio > 4.0, "{warning}");
+    let found = frame.inspect(Fidelity::Rounded).unwrap().findings;
+    assert_eq!(found[0].kind, FindingKind::VarianceAgainstHalves);
+    assert!(found[0].value.unwrap() > 4.0, "{}", found[0]);
+    assert_eq!(read_checked_reference(fixture("reference.exr"), &ReadOptions::default()).unwrap().1, []);
 }
 
 #[test]

@@ -2,9 +2,9 @@
 //!
 //! # Bring a denoiser
 //!
-//! Write your method in a crate of your own: implement [`Denoiser`], describe its parameters in an [`Entry`], and hand
-//! that to [`main_with`]. The program that results is the whole `noisefloor` command with your method in every list, study
-//! and report:
+//! Write your method in a crate of your own: implement [`Denoiser`], describe its parameters in an [`Entry`], and
+//! hand that to [`main_with`]. The program that results is the whole `noisefloor` command with your method in every
+//! list, study and report:
 //!
 //! ```no_run
 //! use noisefloor::{Citation, DenoiseError, Denoiser, Entry, Input, MethodCard, Output, build_with};
@@ -43,12 +43,13 @@
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
-    Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry, Guarded, Input,
-    Method, MethodCard, Need, Output, ParamDoc, Registry, StageSeconds, StageTimer, build_with, params_from,
+    Alternative, Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry,
+    Guarded, Input, Method, MethodCard, Need, Output, ParamDoc, Registry, Setting, StageSeconds, StageTimer,
+    build_with, params_from,
 };
 pub use noisefloor_frame::{
-    Camera, Counts, Estimate, FeatureId, Flash, Frame, FrameError, Hygiene, Image, PixelFilter, Provenance,
-    Reference, Samples, Sampling, Variance, luminance,
+    Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,
+    Image, PixelFilter, Provenance, Reference, Samples, Sampling, Variance, luminance,
 };
 
 /// Reading and writing frames as OpenEXR.

@@ -31,6 +31,7 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
         card.uses.push(Need::FeatureVariance(FeatureId::from_name(name)));
         card.uses.push(Need::FeatureHalves(FeatureId::from_name(name)));
     }
+    card.named_features.clone_from(&params.features);
     card.neighbors = params.neighbors;
     card.claims.estimates_error = true;
     card.notes = vec![

@@ -37,6 +37,7 @@ impl<'a> Prepared<'a> {
                     noisefloor_denoiser::Need::ColorHalves,
                     noisefloor_denoiser::Need::ColorVariance,
                 ],
+                ways_out: Vec::new(),
             });
         };
         check_values(method, &frame.color.mean, MAX_VALUE)?;

@@ -42,9 +42,19 @@ pub(crate) fn scattered(frame: &mut Frame, value: f32) {
     }
 }
 
-/// Every value of the colour is `value`.
-pub(crate) fn all_color(frame: &mut Frame, value: f32) {
-    frame.color.mean.data_mut().fill(value);
+/// Every colour but that of one pixel in the middle is NaN.
+pub(crate) fn one_color(frame: &mut Frame) {
+    let middle = frame.pixels() / 2;
+    for plane in frame.color.mean.planes_mut() {
+        let kept = plane[middle];
+        plane.fill(f32::NAN);
+        plane[middle] = kept;
+    }
+}
+
+/// A quarter of the colours is NaN: more than is taken for part of the image.
+pub(crate) fn quarter_nan(frame: &mut Frame) {
+    frame.color.mean.plane_mut(1).iter_mut().step_by(4).for_each(|value| *value = f32::NAN);
 }
 
 /// Scattered pixels of the colour are `factor` times brighter, as one extreme sample of n leaves them: mean,

@@ -1,6 +1,6 @@
 //! What the method needs and what may be claimed for its settings.
 
-use noisefloor_denoiser::{Citation, Claim, Claims, MethodCard, Need};
+use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, MethodCard, Need};
 
 use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};
@@ -15,6 +15,7 @@ pub const CITATION: Citation = Citation {
 pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
     let mut card = MethodCard::new(id, name(params), CITATION);
     card.needs = needs(params);
+    card.alternatives = alternatives(params);
     card.claims = claims(params, steps);
     card.notes = notes(params);
     card
@@ -51,9 +52,24 @@ fn needs(params: &Params) -> Vec<Need> {
     needs
 }
 
-/// One step keeps D inside the interval of its own test, which carries the bound of Theorem 3.1 (App. A). In two steps with
-/// the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds t₁·s/√n with
-/// probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
+/// Other guides for frames without a flash image, and another standard error for frames without halves.
+fn alternatives(params: &Params) -> Vec<Alternative> {
+    let mut alternatives = Vec::new();
+    if params.guide == GuideKind::Flash {
+        let flash = || vec![Need::Flash, Need::FlashVariance];
+        let color = [Need::ColorVariance, Need::Samples(2)];
+        alternatives.push(Alternative::new("guide", "color", flash()).asking(color));
+        alternatives.push(Alternative::new("guide", "none", flash()));
+    }
+    if params.second_spread == SpreadKind::Halves {
+        alternatives.push(Alternative::new("second_spread", "raw", [Need::ColorHalves]));
+    }
+    alternatives
+}
+
+/// One step keeps D inside the interval of its own test, which carries the bound of Theorem 3.1 (App. A). In two
+/// steps with the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
+/// t₁·s/√n with probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
 fn claims(params: &Params, steps: &[Step]) -> Claims {
     let mut claims = Claims::default();
     // The luminance test bounds luminance alone; without the test nothing is bounded.

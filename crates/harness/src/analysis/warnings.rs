@@ -105,7 +105,7 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     let invalid = cells().map(|cell| cell.invalid_input_pixels).max().unwrap_or(0);
     if invalid > 0 {
         out.push(format!(
-            "{id}: up to {invalid} input pixels per level were not finite and were filled from their neighbours"
+            "{id}: up to {invalid} input pixels per level were not finite and are in no number"
         ));
     }
     for cell in cells().filter(|cell| cell.non_finite_output > 0) {

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_denoiser::{Input, Output};
-use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling};
+use noisefloor_frame::{Counts, Finding, Frame, Hygiene, Image, Reference, Sampling};
 use noisefloor_metrics::{Measurer, MetricError, block_bootstrap};
 
 use crate::cache::{Cache, Key};
@@ -61,9 +61,12 @@ impl Runner<'_> {
                 replicate: spec.replicate,
             });
             let steering = rows.first().map(|(row, _)| *row);
-            let mut frame = match scene.frame(&spec, steering, self.cache, self.request.observer) {
-                // A method that does not know where it needs samples ends its own cells, not the study.
-                Err(error @ HarnessError::Density { .. }) => {
+            let made = scene.frame(&spec, steering, self.cache, self.request.observer);
+            let made = made.and_then(|checked| Ok((checked, self.beside(&spec, &rows)?)));
+            let (checked, beside) = match made {
+                // A frame that contradicts itself, or a method that does not know where it needs samples, ends its
+                // own cells, not the study.
+                Err(error @ (HarnessError::Density { .. } | HarnessError::Unsound { .. })) => {
                     for (row, key) in rows {
                         let mut record = self.blank(row, key, &spec, scene.sampling);
                         record.outcome = Outcome::Failed { reason: error.to_string() };
@@ -72,24 +75,31 @@ impl Runner<'_> {
                     }
                     continue;
                 }
-                frame => frame?,
+                made => made?,
             };
-            let hygiene = frame.sanitize();
+            let (frame, hygiene, findings) = (&checked.frame, &checked.hygiene, checked.findings());
             let non_finite = NonFinite {
                 input_pixels: hygiene.invalid_pixels,
                 negative_variances: hygiene.negative_variances,
                 output_values: 0,
             };
-            let measure =
-                Measure::new(&frame, &truth.reference, &truth.classes, &hygiene.invalid, scene.single());
+            let measure = Measure::new(
+                frame,
+                &truth.reference,
+                &truth.classes,
+                &hygiene.without_statistics(),
+                scene.single(),
+            );
             let cell = Cell {
                 runner: self,
                 measurer: &measurer,
                 measure,
                 reference: &truth.reference,
                 spec: &spec,
-                frame: &frame,
-                beside: self.beside(&spec, &rows)?,
+                frame,
+                hygiene,
+                findings,
+                beside,
             };
             for (row, key) in rows {
                 if self.request.observer.cancelled() {
@@ -149,9 +159,8 @@ impl Runner<'_> {
         let mut frames = BTreeMap::new();
         for (distance, spec) in rows.iter().flat_map(|(row, _)| self.scene.beside(spec, row)) {
             if let Some(moment) = self.scene.moment(distance).filter(|_| !frames.contains_key(&distance)) {
-                let mut frame = moment.frame(&spec, None, self.cache, self.request.observer)?;
-                frame.sanitize();
-                frames.insert(distance, frame);
+                let checked = moment.frame(&spec, None, self.cache, self.request.observer)?;
+                frames.insert(distance, checked.frame);
             }
         }
         Ok(frames)
@@ -191,6 +200,10 @@ struct Cell<'a> {
     reference: &'a Reference,
     spec: &'a FrameSpec,
     frame: &'a Frame,
+    /// What was mended in it.
+    hygiene: &'a Hygiene,
+    /// What was found about it, with its name.
+    findings: Vec<Finding>,
     /// Neighbouring frames of its sequence, by their distance.
     beside: BTreeMap<i64, Frame>,
 }
@@ -208,6 +221,7 @@ impl Cell<'_> {
         record.photon_maps = crate::measure::photon_maps(self.frame);
         record.adaptive = adaptive(self.frame);
         record.non_finite = non_finite;
+        record.findings.clone_from(&self.findings);
         record.seconds.render = self.frame.provenance.render_seconds;
         machine::reset_peak_memory();
         let diagnostics = wants_diagnostics(study, spec).then_some(study.probe);
@@ -216,7 +230,7 @@ impl Cell<'_> {
             |distances: std::ops::Range<i64>| self.beside.range(distances).map(|(_, f)| f.clone()).collect();
         let (before, after): (Vec<Frame>, Vec<Frame>) = (side(-reach..0), side(1..reach + 1));
         let input = Input::new(self.frame).with_neighbors(&before, &after);
-        match denoise(row, input, study.timing, diagnostics) {
+        match denoise(row, input, &self.hygiene.findings, study.timing, diagnostics) {
             Ok(done) => self.measure(row, done, &mut record)?,
             Err(outcome) => record.outcome = outcome,
         }
@@ -230,7 +244,11 @@ impl Cell<'_> {
         record.seconds.denoise_runs = done.runs;
         record.seconds.stages = done.stages;
         let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
-        let Output { image, error_estimate, figures, .. } = done.output;
+        let Output { image: output, error_estimate, figures, .. } = done.output;
+        record.non_finite.output_values = output.count_non_finite();
+        // Where nothing was read there is nothing to measure, whatever was made up there: for no row.
+        let mut image = output.clone();
+        self.hygiene.mark_invalid(&mut image);
         let measured = match self.measurer.measure(&image) {
             // An output without a number in it is the method's failure, not the study's.
             Err(error @ MetricError::NoCommonPixel { .. }) => {
@@ -239,7 +257,6 @@ impl Cell<'_> {
             }
             measured => measured.map_err(metric)?,
         };
-        record.non_finite.output_values = measured.non_finite_values;
         record.metrics = measured.values;
         (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
         record.classes = measured.classes;
@@ -267,8 +284,8 @@ impl Cell<'_> {
         // Nothing is claimed where samples were placed by what was seen.
         if record.adaptive.is_none() {
             let claims = &row.card.claims;
-            record.bounds = measure.bounds(&image, &claims.error_bound).map_err(shape)?;
-            record.enclosures = measure.enclosures(&image, &claims.enclosure).map_err(shape)?;
+            record.bounds = measure.bounds(&output, &claims.error_bound).map_err(shape)?;
+            record.enclosures = measure.enclosures(&output, &claims.enclosure).map_err(shape)?;
         }
 
         let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use noisefloor_denoiser::{DenoiseError, Diagnostics, Input, Output, StageSeconds};
-use noisefloor_frame::Image;
+use noisefloor_frame::{Finding, Image};
 
 use crate::fingerprint::attempt;
 use crate::plan::Row;
@@ -24,19 +24,20 @@ pub(super) struct Denoised {
     pub(super) diagnostics: Vec<(String, Image)>,
 }
 
-/// Runs a row on a sanitised frame and its neighbours. `diagnostics` asks for diagnostic images that probe this pixel,
-/// given in fractions of the image (`Some(None)`: where the method likes).
+/// Runs a row on a checked frame and its neighbours; `findings` are those about the frame. `diagnostics` asks for
+/// diagnostic images that probe this pixel, given in fractions of the image (`Some(None)`: where the method likes).
 pub(super) fn denoise(
     row: &Row,
     input: Input<'_>,
+    findings: &[Finding],
     timing: Timing,
     diagnostics: Option<Option<[f64; 2]>>,
 ) -> Result<Denoised, Outcome> {
     let frame = input.target;
-    let missing = row.card.missing(frame);
-    if !missing.is_empty() {
-        let error = DenoiseError::MissingInputs { method: row.method.id.clone(), missing };
-        return Err(Outcome::Skipped { reason: error.to_string() });
+    match input.check(&row.card) {
+        Err(error @ DenoiseError::MissingInputs { .. }) => return Err(skipped(&error, findings)),
+        Err(error) => return Err(Outcome::Failed { reason: error.to_string() }),
+        Ok(()) => {}
     }
     let mut first = None;
     for _ in 0..timing.warmup {
@@ -65,6 +66,15 @@ pub(super) fn denoise(
     };
     let output = first.ok_or_else(|| Outcome::Failed { reason: "it was never run".into() })?;
     Ok(Denoised { output, seconds, runs, stages, diagnostics })
+}
+
+/// What is missing, and why if that was found.
+fn skipped(error: &DenoiseError, findings: &[Finding]) -> Outcome {
+    let mut reason = error.to_string();
+    for finding in error.because(findings) {
+        reason.push_str(&format!(" ({})", finding.text));
+    }
+    Outcome::Skipped { reason }
 }
 
 /// Runs a method once. Errors and panics of a method end its cell, not the study.

@@ -56,7 +56,8 @@ pub(super) fn truth(
     layout: &Layout,
     observer: &dyn Observer,
 ) -> Result<(Truth, SceneContext), HarnessError> {
-    let mut reference = scene.reference(cache, observer)?;
+    let (mut reference, mut findings) = scene.reference(cache, observer)?;
+    findings.extend(scene.findings.iter().cloned());
     let classes = scene.classes(&reference)?;
     let truth = Truth { classes, reference: reference.clone() };
     let measurer = truth.measurer(scene)?;
@@ -89,7 +90,7 @@ pub(super) fn truth(
         },
         files: Files::new(),
         damaged: BTreeSet::new(),
-        findings: Vec::new(),
+        findings,
     };
     // The parts stay in the cache: mean, variance and halves are what metrics are computed from.
     reference.parts.clear();

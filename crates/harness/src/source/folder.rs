@@ -1,15 +1,14 @@
 //! Scenes of another program: a folder of frames with a reference.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use noisefloor_frame::{Frame, Reference};
-use noisefloor_io::{FileInfo, FrameFolder, ReadOptions, check_variance_scale, read_frame, read_reference};
+use noisefloor_frame::{Finding, Reference};
+use noisefloor_io::{FileInfo, FrameFile, FrameFolder, ReadOptions, read_checked_reference, read_frame_file};
 use serde_json::json;
 
 use crate::cache::{Key, key_of};
 use crate::error::HarnessError;
-use crate::observer::Observer;
 use crate::source::{FrameKind, FrameSpec, Scene, Source};
 use crate::store::hash_of;
 use crate::study::SceneSpec;
@@ -75,6 +74,8 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         sampling: folder.frames[0].info.sampling,
         settings,
         frames,
+        findings: layer_findings(&spec.id, &folder),
+        extra_features: layers(&folder),
         reference_key: file_key(&folder.reference, info, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
         reference_sampling: info.sampling.name().to_owned(),
@@ -83,6 +84,11 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         beside: BTreeMap::new(),
         source: Source::Imported(Imported { files, reference: folder.reference.clone(), options }),
     })
+}
+
+/// Names of all layers that some frame has.
+fn layers(folder: &FrameFolder) -> BTreeSet<String> {
+    folder.frames.iter().flat_map(|frame| frame.info.layers.iter().cloned()).collect()
 }
 
 /// Hash of a file's bytes, and of what its header is taken to say: another reading of channel names is another frame.
@@ -94,17 +100,37 @@ fn file_key(path: &Path, info: &FileInfo, options: &ReadOptions) -> Result<Key, 
 }
 
 impl Imported {
-    pub(super) fn frame(&self, spec: &FrameSpec, observer: &dyn Observer) -> Result<Frame, HarnessError> {
+    /// The frame as its file has it, and the file's name.
+    pub(super) fn frame(&self, spec: &FrameSpec) -> Result<(FrameFile, String), HarnessError> {
         let path = &self.files[&(spec.spp, spec.replicate)]; // made from the same list as the specs
-        let frame = read_frame(path, &self.options)?;
-        if let Some(warning) = check_variance_scale(&frame) {
-            observer.warning(&format!("{}: {warning}", path.display()));
-        }
-        Ok(frame)
+        Ok((read_frame_file(path, &self.options)?, file_name(path)))
     }
 
-    pub(super) fn reference(&self) -> Result<Reference, HarnessError> {
+    pub(super) fn reference(&self) -> Result<(Reference, Vec<Finding>), HarnessError> {
         // The count of the reference only serves to say how long it is; a file without one is usable.
-        Ok(read_reference(&self.reference, &ReadOptions { spp: self.options.spp.or(Some(1)) })?)
+        Ok(read_checked_reference(&self.reference, &ReadOptions { spp: self.options.spp.or(Some(1)) })?)
     }
+}
+
+/// What the headers say about the layers of the frames: once each, with the number of files if that is not all of them.
+fn layer_findings(scene: &str, folder: &FrameFolder) -> Vec<Finding> {
+    let mut counted: Vec<(Finding, usize)> = Vec::new();
+    for finding in folder.frames.iter().flat_map(|frame| &frame.info.findings) {
+        match counted.iter_mut().find(|(known, _)| known == finding) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((finding.clone(), 1)),
+        }
+    }
+    let all = folder.frames.len();
+    let told = |(mut finding, count): (Finding, usize)| {
+        if count < all {
+            finding.text.push_str(&format!(" (in {count} of {all} frames)"));
+        }
+        finding.within(scene)
+    };
+    counted.into_iter().map(told).collect()
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }

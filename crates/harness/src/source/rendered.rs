@@ -2,7 +2,7 @@
 
 mod adaptive;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -205,6 +205,8 @@ pub(super) fn open(
         sampling: study.sampling,
         settings,
         frames,
+        findings: Vec::new(),
+        extra_features: BTreeSet::new(),
         reference_key,
         reference_spp: u64::from(reference.spp),
         reference_sampling: reference.sampling.name().to_owned(),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor_frame::{Estimate, Frame, Reference, Sampling, Variance};
+use noisefloor_frame::{Estimate, Frame, Reference, Sampling};
 use noisefloor_harness::summary::Source;
 use noisefloor_harness::{HarnessError, MethodRow, Study};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
@@ -112,22 +112,6 @@ fn a_study_file_finds_folders_relative_to_itself_and_may_choose_levels() {
     std::fs::write(&file, text("").replace("frames/", "")).unwrap();
     let error = Study::from_file(&file).unwrap_err().to_string();
     assert!(error.contains("mine.toml, line 2") && error.contains("a folder that exists"), "{error}");
-}
-
-#[test]
-fn a_lost_factor_of_n_is_told() {
-    let place = Place::new();
-    let folder = place.root.path().join("kitchen");
-    write(&folder);
-    let mut frame = scene().render(16, 2);
-    let of_sample = frame.color.variance.as_ref().unwrap().sample_variance(&frame.samples);
-    frame.color.variance = Some(Variance::of_mean(of_sample));
-    noisefloor_io::write_frame(folder.join("spp0016.exr"), &frame).unwrap();
-    let watch = Watch::default();
-    place.run(&Study::for_folder(&folder, None, rows()).unwrap(), &watch).unwrap();
-    assert!(
-        watch.warnings().iter().any(|w| w.contains("spp0016.exr") && w.contains("variance of one sample"))
-    );
 }
 
 #[test]

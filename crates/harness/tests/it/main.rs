@@ -3,6 +3,7 @@
 mod cache;
 mod common;
 mod estimates;
+mod findings;
 mod flicker;
 mod frames;
 mod import;

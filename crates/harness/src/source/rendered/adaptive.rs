@@ -13,8 +13,8 @@ use crate::measure::{ADAPTIVE, DENSITY_SECONDS};
 use crate::observer::Observer;
 use crate::study::AdaptiveFrames;
 
-/// Renders level `spp` for the row `label`: a uniform round, then rounds whose samples go where the method wants them after what it
-/// has seen so far.
+/// Renders level `spp` for the row `label`: a uniform round, then rounds whose samples go where the method wants them
+/// after what it has seen so far.
 pub(super) fn render(
     request: &RenderRequest<'_>,
     adaptive: AdaptiveFrames,
@@ -35,7 +35,7 @@ pub(super) fn render(
     for budget in adaptive.budgets(spp, pixels) {
         let mut so_far = rounds.frame()?;
         let looking = Instant::now();
-        so_far.sanitize();
+        so_far.sanitize().map_err(|e| failed(e.to_string()))?;
         // The method's state is not touched again after a panic unless by another cell, which fails on its own.
         let density = catch_unwind(AssertUnwindSafe(|| method.density(&Input::new(&so_far))));
         let density =

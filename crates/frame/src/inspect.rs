@@ -1,0 +1,82 @@
+//! Whether the buffers of a frame or a reference can belong together, and what is wrong with them.
+
+mod average;
+mod precision;
+mod reference;
+mod spread;
+#[cfg(test)]
+mod tests;
+
+use crate::{Counts, Estimate, FeatureId, Finding, Flash, Frame, FrameError, Hygiene, Sampling};
+use average::{Film, Halves};
+pub(crate) use precision::Precision;
+
+/// What compression did to the numbers of a file.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Fidelity {
+    /// Every number is the one that was written, rounded to the format's precision at most.
+    #[default]
+    Rounded,
+    /// A lossy compression changed them, so that only gross contradictions can be told from its errors.
+    Lossy,
+}
+
+impl Frame {
+    /// The one place where a frame that came from outside is checked before numbers are made from it: refuses buffers
+    /// that contradict each other, mends what [`Frame::sanitize`] mends, and tells everything found as
+    /// [`Hygiene::findings`]. A method may look at a frame that has passed.
+    ///
+    /// * The halves of colour, features and flash must average to their mean, (n_A·A + n_B·B)/n = mean, to the
+    ///   precision that the buffers show (half floats, rounded mantissas) or [`Fidelity::Lossy`] leaves. With
+    ///   weighted pixel filters the shares are not n_A/n and n_B/n; what holds then is that the mean lies between the
+    ///   halves, with shares that differ from pixel to pixel without a trend. That suffices where the film's filter
+    ///   is not known to be unweighted. Ids and normalised vectors are no averages and are not compared.
+    /// * For independent samples the stated variance must agree with the halves: a finding, if not.
+    /// * Zero variance where the halves differ is a finding.
+    ///
+    /// # Errors
+    /// [`FrameError::Contradiction`] for halves that do not average to their mean, [`FrameError::NoValidPixel`] if no
+    /// pixel has a colour, and those of [`Frame::check`].
+    pub fn inspect(&mut self, fidelity: Fidelity) -> Result<Hygiene, FrameError> {
+        self.check()?;
+        let mut found = Vec::new();
+        // Samples that were placed by what was seen are no longer exchangeable between the halves.
+        let even = matches!(self.samples.total(), Counts::Uniform(_));
+        for (name, estimate) in self.estimates() {
+            let film = match name {
+                "color" if self.provenance.filter.is_some() => Film::Unweighted,
+                "color" => Film::Unknown,
+                _ => Film::OfFeature,
+            };
+            let halves = average::check(name, estimate, &self.samples, film, fidelity)?;
+            let subject = if name == "color" { String::new() } else { name.to_owned() };
+            found.extend(spread::zero(&subject, estimate, &self.samples, fidelity));
+            if self.sampling == Sampling::Independent && fidelity == Fidelity::Rounded {
+                let exact = even && halves == Halves::Exact;
+                found.extend(spread::against_halves(&subject, estimate, &self.samples, exact));
+            }
+        }
+        let mut hygiene = self.sanitize()?;
+        found.append(&mut hygiene.findings);
+        hygiene.findings = crate::sorted_findings(found);
+        Ok(hygiene)
+    }
+
+    /// All estimates whose halves are averages, with the names of their layers.
+    fn estimates(&self) -> impl Iterator<Item = (&str, &Estimate)> {
+        let features = self.features.iter().filter(|(id, _)| **id != FeatureId::Material);
+        let flash: Vec<(&str, &Estimate)> = match &self.flash {
+            Some(Flash::Parts { base, light, .. }) => vec![("flashBase", base), ("flashLight", light)],
+            Some(Flash::Ready(flash)) => vec![("flash", flash)],
+            None => Vec::new(),
+        };
+        std::iter::once(("color", &self.color))
+            .chain(features.map(|(id, estimate)| (id.name(), estimate)))
+            .chain(flash)
+    }
+}
+
+/// A finding about a layer, or about the colour if `subject` is empty.
+pub(crate) fn finding(kind: crate::FindingKind, subject: &str, text: String) -> Finding {
+    Finding::new(kind, subject, text)
+}
