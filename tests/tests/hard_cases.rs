@@ -338,7 +338,7 @@ fn values_at_the_end_of_the_number_range_are_denoised_or_refused() {
             cap(light);
             *covariance = None;
         }
-        assert_eq!(f.sanitize().invalid_pixels, 0);
+        assert_eq!(f.sanitize().unwrap().invalid_pixels, 0);
         for subject in subjects() {
             match subject.denoiser.denoise(&Input::new(&f)) {
                 Ok(output) => assert_eq!(output.image.count_non_finite(), 0, "{}, {k}", subject.label),

@@ -67,6 +67,7 @@ impl DenoiseError {
             Self::Frame(_) => "frame",
             Self::Undefined { .. } => "undefined",
             Self::Parameter { .. } => "parameter",
+            Self::UnknownFeature { .. } => "unknown feature",
         }
     }
 }
