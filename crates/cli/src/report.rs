@@ -1,6 +1,10 @@
 //! `noisefloor report`.
 
-use anyhow::bail;
+use std::io::ErrorKind;
+
+use anyhow::{anyhow, bail};
+use noisefloor_harness::HarnessError;
+use noisefloor_io::IoError;
 use noisefloor_report::ReportOptions;
 
 use crate::args::Report;
@@ -12,10 +16,42 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
         bail!("--viewer-budget is {}, expected a size in MB from 0", args.viewer_budget);
     }
     let out = args.out.as_deref().unwrap_or(&args.dir);
-    let summary = noisefloor_harness::reanalyse_into(&args.dir, out, args.recompute)?;
+    let summary = noisefloor_harness::reanalyse_into(&args.dir, out, args.recompute)
+        .map_err(|error| way_out(error, args.out.is_none()))?;
     let options =
         ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
     let files = noisefloor_report::write_report_into(&args.dir, out, &summary, &options)?;
     say!(Out::Stdout, "report: {}", files.index.display())?;
     Ok(Exit::Done)
+}
+
+/// Names the way out where a study's folder cannot be written.
+fn way_out(error: HarnessError, in_place: bool) -> anyhow::Error {
+    let cause = match &error {
+        HarnessError::Image(IoError::Write { cause, .. }) => Some(cause.kind()),
+        HarnessError::Io { source, .. } => Some(source.kind()),
+        _ => None,
+    };
+    let refused = matches!(cause, Some(ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem));
+    if refused && in_place {
+        return anyhow!("{error}; `--out OTHER` writes summary and report into another folder");
+    }
+    error.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_folder_that_cannot_be_written_is_answered_with_the_option_for_another() {
+        let error = |kind: ErrorKind| {
+            HarnessError::Image(IoError::Write { file: "results/summary.json".into(), cause: kind.into() })
+        };
+        for kind in [ErrorKind::PermissionDenied, ErrorKind::ReadOnlyFilesystem] {
+            assert!(way_out(error(kind), true).to_string().contains("--out OTHER"));
+            assert!(!way_out(error(kind), false).to_string().contains("--out OTHER"));
+        }
+        assert!(!way_out(error(ErrorKind::StorageFull), true).to_string().contains("--out OTHER"));
+    }
 }

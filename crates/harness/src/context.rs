@@ -42,6 +42,9 @@ pub(crate) struct SceneContext {
     /// Pixel classes in the order of the class image's indices, with their pixel counts.
     pub(crate) classes: Vec<(String, u64)>,
     pub(crate) reference: ReferenceContext,
+    /// Hash of what the measuring that made floor, bias and classes gives on fixed inputs; empty if unknown.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub(crate) measuring: String,
     /// The scene's kept files and their hashes.
     #[serde(default, skip_serializing_if = "Files::is_empty")]
     pub(crate) files: Files,

@@ -8,6 +8,7 @@ use noisefloor_metrics::{Classes, Measurer};
 use crate::cache::Cache;
 use crate::context::{ReferenceContext, SceneContext};
 use crate::error::HarnessError;
+use crate::fingerprint::measuring;
 use crate::observer::Observer;
 use crate::source::{PixelClasses, Scene};
 use crate::store::{Files, Layout, damaged, hash_of, read_json, write_json};
@@ -26,11 +27,12 @@ impl Truth {
     }
 }
 
-/// The scene's description from an earlier run, if its reference is still the right one and its files are what was
-/// written.
+/// The scene's description from an earlier run, if its reference is still the right one, the measuring is that of this
+/// program, and its files are what was written.
 pub(super) fn kept_context(layout: &Layout, scene: &Scene) -> Option<SceneContext> {
     let kept: SceneContext = read_json(&layout.root().join(Layout::scene(&scene.id))).ok()?;
-    let right = kept.reference.key == scene.reference_key && !kept.files.is_empty();
+    // What it says of the reference is of one measuring, as the numbers of the records are.
+    let right = kept.reference.key == scene.reference_key && kept.measuring == measuring();
     (right && damaged(layout.root(), &kept.files).is_empty()).then(|| SceneContext {
         replicates: scene.replicates(),
         settings: scene.settings.clone(),
@@ -88,6 +90,7 @@ pub(super) fn truth(
             floor: measurer.floor(),
             bias: measurer.bias(),
         },
+        measuring: measuring().to_owned(),
         files: Files::new(),
         damaged: BTreeSet::new(),
         findings,

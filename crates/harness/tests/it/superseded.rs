@@ -190,6 +190,15 @@ fn numbers_of_another_measuring_are_never_taken_for_those_of_this_one() {
     assert_eq!((watch.cells(), timeless(&place.out())), (8, before));
     assert_eq!(superseded(&place.out()).len(), 8);
 
+    // What a scene's description says of its reference is made again as well, not taken over.
+    let description = place.out().join("reference/steps.json");
+    let text = std::fs::read_to_string(&description).unwrap();
+    let foreign_scene =
+        text.replace(&first.measuring, "another").replace("\"title\": \"steps\"", "\"title\": \"old\"");
+    std::fs::write(&description, &foreign_scene).unwrap();
+    let summary = place.run(&small(), &Watch::default()).unwrap();
+    assert!(text != foreign_scene && summary.scenes[0].title == "steps", "{}", summary.scenes[0].title);
+
     // Computed again here, they are of this program; the others are set aside.
     std::fs::write(&path, &foreign).unwrap();
     reanalyse(&place.out(), true).unwrap();
