@@ -32,7 +32,7 @@ impl Frame {
     ///   halves, with shares that differ from pixel to pixel without a trend. That suffices where the film's filter
     ///   is not known to be unweighted. Ids and normalised vectors are no averages and are not compared.
     /// * For independent samples the stated variance must agree with the halves: a finding, if not.
-    /// * Zero variance where the halves differ is a finding.
+    /// * Zero variance where the halves differ is a finding. Neither is looked for in features of weighted samples.
     ///
     /// # Errors
     /// [`FrameError::Contradiction`] for halves that do not average to their mean, [`FrameError::NoValidPixel`] if no
@@ -49,6 +49,10 @@ impl Frame {
                 _ => Film::OfFeature,
             };
             let halves = average::check(name, estimate, &self.samples, film, fidelity)?;
+            // Where samples that hit nothing do not count, nobody knows how many of a pixel's made up its variance.
+            if film == Film::OfFeature && halves == Halves::Weighted {
+                continue;
+            }
             let subject = if name == "color" { String::new() } else { name.to_owned() };
             found.extend(spread::zero(&subject, estimate, &self.samples, fidelity));
             if self.sampling == Sampling::Independent && fidelity == Fidelity::Rounded {

@@ -224,8 +224,7 @@ fn nothing_is_said_where_nothing_can_be_compared() {
 fn noise_below_the_rounding_of_half_floats_is_not_compared() {
     // Values near 1 in steps of 2⁻¹¹, whose noise of 1e-6 the halves cannot show.
     let mut frame = sound(16);
-    let quiet = |image: &Image| image.map(|v| 1.0 + (v * 3.0).round() / 2048.0);
-    frame.color.mean = quiet(&frame.color.mean);
+    frame.color.mean = frame.color.mean.map(|v| 1.0 + (v * 3.0).round() / 2048.0);
     frame.color.halves =
         Some([frame.color.mean.map(|v| v + 2f32.powi(-10)), frame.color.mean.map(|v| v - 2f32.powi(-10))]);
     frame.color.variance = Some(Variance::of_mean(Image::filled(SIZE.0, SIZE.1, 3, 1e-10)));
