@@ -75,7 +75,7 @@ pub(super) fn check(
         }
         (Fidelity::Rounded, Film::Unweighted) => false,
         (Fidelity::Rounded, Film::Unknown) => tally.weighted_film(),
-        (Fidelity::Rounded, Film::OfFeature) => share <= FEATURE || tally.weighted_film(),
+        (Fidelity::Rounded, Film::OfFeature) => share <= FEATURE || tally.weighted_film() || tally.gaps(),
     };
     if sound { Ok(Halves::Weighted) } else { Err(contradiction(&tally)) }
 }
@@ -199,6 +199,18 @@ impl Tally {
         let signed = self.disagreeing.iter().map(|v| v.residual / v.scale); // what disagrees is not zero all through
         let (sum, squares) = signed.fold((0.0, 0.0), |(s, q), r| (s + r, q + r * r));
         median.abs() <= SHARE && sum.abs() <= BALANCE * f64::sqrt(squares)
+    }
+
+    /// Whether samples that do not count explain the disagreement: a mean between its halves, and no nearer to one of
+    /// them than to the other on the whole, even where it is one of them because the other has no sample that counts.
+    fn gaps(&self) -> bool {
+        let nearer = |v: &Value| {
+            let at = (v.mean - v.halves[1]) / (v.halves[0] - v.halves[1]);
+            if at > v.share { 1.0 } else { -1.0 }
+        };
+        let sides: f64 = self.disagreeing.iter().map(nearer).sum();
+        let count = self.disagreeing.len() as f64;
+        self.between as f64 >= BETWEEN * count && sides.abs() <= BALANCE * count.sqrt()
     }
 
     fn error(&self, layer: &str, estimate: &Estimate) -> FrameError {
