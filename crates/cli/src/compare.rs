@@ -8,6 +8,7 @@ mod json;
 mod maps;
 mod text;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
@@ -33,6 +34,23 @@ impl Compared<'_> {
     fn pixels(&self, metric: &str) -> usize {
         let dropped = if metric == "relmse_trimmed" { trimmed_count(self.measured.pixels) } else { 0 };
         self.measured.pixels - dropped
+    }
+
+    /// Metric id to the bias by the reference's noise that was taken out.
+    fn bias(&self) -> BTreeMap<&str, f64> {
+        let found = self.measured.reference.iter().filter(|(_, contribution)| contribution.bias != 0.0);
+        found.map(|(id, contribution)| (id.as_str(), contribution.bias)).collect()
+    }
+
+    /// Metric id to the upper limit that stands for a value whose bias is in doubt.
+    fn upper_limits(&self) -> BTreeMap<&str, f64> {
+        let limit = |id: &String| {
+            let value = self.measured.values.get(id).copied().flatten()?;
+            // Two-sided 95 %.
+            let high = self.measured.reference_se.get(id).map(|se| value + 1.96 * se);
+            self.measured.reference.get(id)?.upper_limit(value, high)
+        };
+        self.measured.reference.keys().filter_map(|id| Some((id.as_str(), limit(id)?))).collect()
     }
 }
 

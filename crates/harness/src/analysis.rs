@@ -19,7 +19,7 @@ mod warnings;
 
 use std::path::Path;
 
-use noisefloor_frame::{Finding, sorted_findings};
+use noisefloor_frame::{Finding, FindingKind, sorted_findings};
 
 use crate::context::Context;
 use crate::machine;
@@ -50,19 +50,36 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
         estimates: estimates::estimates(&index),
         equal_time: equal_time::equal_time(&index),
         flicker: flicker::flicker(&index, &sequences.measured),
-        findings: findings(context, records),
+        findings: Vec::new(),
         warnings: Vec::new(),
     };
+    summary.findings = findings(context, records, &summary);
     summary.warnings = warnings::warnings(&index, &summary);
     summary.warnings.extend(sequences.problems);
     summary.warnings.extend(builds::warning(records));
     summary
 }
 
-/// What was found about scenes and frames, once each.
-fn findings(context: &Context, records: &[Record]) -> Vec<Finding> {
+/// What was found about scenes, frames, outputs and the program itself, once each.
+fn findings(context: &Context, records: &[Record], summary: &Summary) -> Vec<Finding> {
     let of_scenes = context.scenes.iter().flat_map(|scene| &scene.findings);
-    sorted_findings(of_scenes.chain(records.iter().flat_map(|record| &record.findings)).cloned())
+    let of_inputs = of_scenes.chain(records.iter().flat_map(|record| &record.findings)).cloned();
+    let outputs = summary.cells.iter().filter(|cell| cell.non_finite_output > 0).map(|cell| {
+        let subject = format!("{} on {} at {} spp", cell.label, cell.scene, cell.spp);
+        let text = format!(
+            "{} output values are not finite; their pixels are left out of the metrics",
+            cell.non_finite_output
+        );
+        Finding::new(FindingKind::NonFiniteOutput, subject, text).with_value(cell.non_finite_output as f64)
+    });
+    let debug = (summary.environment.profile == "debug").then(|| {
+        Finding::new(
+            FindingKind::DebugBuild,
+            "",
+            "times are of a debug build and say nothing about the methods",
+        )
+    });
+    sorted_findings(of_inputs.chain(outputs).chain(debug))
 }
 
 fn info(study: &Study, context: &Context, index: &Index<'_>) -> StudyInfo {

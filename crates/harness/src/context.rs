@@ -67,5 +67,4 @@ pub(crate) struct ReferenceContext {
     pub(crate) exact: bool,
     pub(crate) correction: String,
     pub(crate) floor: BTreeMap<String, f64>,
-    pub(crate) bias: BTreeMap<String, f64>,
 }

@@ -87,9 +87,23 @@ fn one_sequence(
         read_reference(root.join(Layout::reference(id)), &ReadOptions { spp: Some(1) })
     });
     let truth = Truth::new(references)?;
+    // The row that the others are compared with, by level; the order is that of levels and rows.
+    let mut first: BTreeMap<u32, usize> = BTreeMap::new();
+    whole.iter().for_each(|((spp, row, _), _)| {
+        first.entry(*spp).or_insert(*row);
+    });
+    let beside: BTreeMap<(u32, u32), Vec<&str>> = whole
+        .iter()
+        .filter(|((spp, row, _), _)| first[spp] == *row)
+        .map(|((spp, _, replicate), images)| ((*spp, *replicate), images.clone()))
+        .collect();
     let mut out = Vec::new();
     for ((spp, row, replicate), images) in whole {
-        let outputs = images.into_iter().map(|path| read_color(root.join(path)));
+        let other = beside.get(&(spp, replicate)).filter(|_| first[&spp] != row);
+        let outputs = images.iter().enumerate().map(|(frame, path)| {
+            let other = other.map(|images| read_color(root.join(images[frame]))).transpose()?;
+            Ok((read_color(root.join(path))?, other))
+        });
         out.extend(truth.over_time(outputs)?.map(|found| Flicker {
             sequence: name.to_owned(),
             spp,

@@ -170,19 +170,20 @@ fn measure_again<'a>(
     let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
     let wrong = |source| HarnessError::Metric { scene: scene.id.clone(), source };
     let measurer = Measurer::new(&reference, Some(map)).map_err(wrong)?;
+    let lacks_parts = reference.parts.len() < scene.reference.parts as usize;
     for record in records {
         let Some(relative) = &record.image else { continue };
         let image = read_color(dir.join(relative))?;
         let measured = measurer.measure(&image).map_err(wrong)?;
         record.measuring = measuring().to_owned();
-        record.metrics = measured.values;
-        (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
-        record.classes = measured.classes;
         // Pixels that were invalid on input are marked in the kept image, in all channels.
         let marked = 3 * record.non_finite.input_pixels;
         record.non_finite.output_values = measured.non_finite_values.saturating_sub(marked);
-        if record.metrics_reference_se.is_empty() {
-            record.metrics_reference_se = measured.reference_se;
+        let earlier = std::mem::take(&mut record.metrics_reference_se);
+        record.take(measured);
+        // Earlier versions did not keep the parts that these were made from.
+        if lacks_parts && !earlier.is_empty() {
+            record.metrics_reference_se = earlier;
         }
         if !record.metrics_within_se.is_empty() {
             let images = crate::run::BOOTSTRAP_IMAGES;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use noisefloor_denoiser::StageSeconds;
 use noisefloor_frame::{Finding, Sampling};
+use noisefloor_metrics::{Contribution, Measured};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -95,6 +96,13 @@ pub struct Record {
     /// Pixel class to metric id to value.
     #[serde(default)]
     pub classes: BTreeMap<String, BTreeMap<String, Option<f64>>>,
+    /// Metric id to what the reference's noise does to the value: the bias that was taken out, and the influence of each
+    /// part of the reference, by which its share in ratios and slopes is known. Absent metrics have none.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub reference: BTreeMap<String, Contribution>,
+    /// The same per pixel class.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub class_reference: BTreeMap<String, BTreeMap<String, Contribution>>,
     /// Coverage of the input mean's t-intervals; only on the rows of method `mc`, whose output is that mean.
     #[serde(default)]
     pub coverage: Vec<CoverageCount>,
@@ -141,6 +149,39 @@ impl Record {
 #[expect(clippy::trivially_copy_pass_by_ref)] // what serde asks for
 fn is_zero(count: &u64) -> bool {
     *count == 0
+}
+
+impl Record {
+    /// Takes over what was measured of the cell's image.
+    pub(crate) fn take(&mut self, measured: Measured) {
+        (self.pixels, self.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
+        self.metrics = measured.values;
+        self.classes = measured.classes;
+        self.metrics_reference_se = measured.reference_se;
+        self.reference = short(measured.reference);
+        self.class_reference =
+            measured.class_reference.into_iter().map(|(class, found)| (class, short(found))).collect();
+    }
+
+    /// What the reference does to a metric over all pixels or in a class.
+    pub(crate) fn contribution(&self, class: Option<&str>, metric: &str) -> Option<&Contribution> {
+        match class {
+            None => self.reference.get(metric),
+            Some(class) => self.class_reference.get(class)?.get(metric),
+        }
+    }
+}
+
+/// With influences to four digits: they only make standard errors, and there are many of them.
+fn short(contributions: BTreeMap<String, Contribution>) -> BTreeMap<String, Contribution> {
+    let short = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+    let of = |c: Contribution| Contribution {
+        bias: c.bias,
+        noise: short(c.noise),
+        parts: c.parts.into_iter().map(short).collect(),
+        product: short(c.product),
+    };
+    contributions.into_iter().map(|(id, contribution)| (id, of(contribution))).collect()
 }
 
 /// A frame whose samples were placed in rounds, where its row's method asked for them. They depend on what was seen,

@@ -204,7 +204,8 @@ pub struct ReferenceSummary {
     pub long_enough: bool,
     /// Metric id to the floor: the standard error that the reference itself contributes.
     pub floor: BTreeMap<String, f64>,
-    /// Metric id to the figure that bounds the bias of the corrected metric (relative metrics), in its unit.
+    /// Metric id to the largest bias by the reference's noise that was estimated and taken out of a value on this scene,
+    /// relative to that value (relative metrics).
     pub bias: BTreeMap<String, f64>,
 }
 
@@ -246,6 +247,10 @@ pub struct CellSummary {
     pub metrics: BTreeMap<String, Interval>,
     /// Metric id to ratio to `mc` (geometric mean over paired replicates); below 1 is better for errors.
     pub ratio_to_mc: BTreeMap<String, Interval>,
+    /// Metric id to the bias by the reference's noise that was estimated and taken out of the mean, in its unit; what is
+    /// left of it is smaller. Metrics without any are absent.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub reference_bias: BTreeMap<String, f64>,
     /// Pixel class to metric id to mean over replicates.
     pub classes: BTreeMap<String, BTreeMap<String, Interval>>,
     /// Pixel class to metric id to ratio to `mc`.

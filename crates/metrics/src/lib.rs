@@ -7,7 +7,8 @@
 //! The noise of a reference must not pass for error. Where the formula allows, it is taken out: the product
 //! of the residuals to two independent halves is an unbiased squared error; a reference with a variance and
 //! no halves has that variance subtracted. Both can give values at or below zero when the error is smaller
-//! than the reference can show.
+//! than the reference can show. The relative error has a noisy denominator too: the bias that this makes is estimated,
+//! taken out and told.
 //!
 //! ```
 //! use noisefloor_frame::{Image, Reference};
@@ -20,17 +21,21 @@
 //! ```
 
 mod bootstrap;
+mod contribution;
 mod error;
+mod influence;
 mod map;
 mod measurer;
 mod pixels;
 mod reference_noise;
+mod relative_bias;
 mod ssim;
 mod table;
 mod tone;
 mod trimmed;
 
 pub use bootstrap::{BLOCK_SIDE, block_bootstrap};
+pub use contribution::Contribution;
 pub use error::MetricError;
 pub use map::{ErrorKind, error_map};
 pub use measurer::{Classes, Measured, Measurer, Values};

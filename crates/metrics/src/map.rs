@@ -16,7 +16,7 @@ pub enum ErrorKind {
     /// Squared error with the reference's noise taken out, as in MSE, whose mean over the map is the MSE; may
     /// be negative.
     Squared,
-    /// The same over max(r,0)²+ε; its mean is rMSE.
+    /// The same over max(r,0)²+ε, less the bias by that denominator; its mean is rMSE.
     RelativeSquared,
 }
 
@@ -41,7 +41,9 @@ pub fn error_map(test: &Image, reference: &Reference, kind: ErrorKind) -> Result
                     ErrorKind::Absolute => e.abs(),
                     ErrorKind::Relative => e.abs() / scale.sqrt(),
                     ErrorKind::Squared => measurer.numerator(i, value, e),
-                    ErrorKind::RelativeSquared => measurer.numerator(i, value, e) / scale,
+                    ErrorKind::RelativeSquared => {
+                        measurer.numerator(i, value, e) / scale - measurer.bias.at(i, e)
+                    }
                 }
             })
             .sum();

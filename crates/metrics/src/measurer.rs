@@ -2,11 +2,14 @@ use std::collections::BTreeMap;
 
 use noisefloor_frame::{Image, Reference, SquaredError};
 
+use crate::contribution::Contribution;
+use crate::influence::contributions;
 use crate::pixels::{LUMA, PixelErrors};
 use crate::reference_noise::ReferenceNoise;
+use crate::relative_bias::{RelativeBias, weight};
 use crate::tone::tone;
-use crate::trimmed::trimmed_mean;
-use crate::{EPSILON, METRICS, MetricError};
+use crate::trimmed::{kept_positions, trimmed_mean};
+use crate::{METRICS, MetricError};
 
 /// Metric id to value; `None` where it is undefined or not finite.
 pub type Values = BTreeMap<String, Option<f64>>;
@@ -30,6 +33,11 @@ pub struct Measured {
     /// Metric id to the standard error that the reference's own noise contributes; only corrected metrics,
     /// and only where the reference tells.
     pub reference_se: BTreeMap<String, f64>,
+    /// Metric id to what the reference does to its value beside that: the bias that was taken out, and the influence of
+    /// its parts.
+    pub reference: BTreeMap<String, Contribution>,
+    /// The same per class that has pixels.
+    pub class_reference: BTreeMap<String, BTreeMap<String, Contribution>>,
     /// Values of the image that are NaN or infinite.
     pub non_finite_values: usize,
     /// Pixels that took part: those where image and reference are finite. At least 1.
@@ -52,8 +60,9 @@ pub struct Measurer<'a> {
     pub(crate) toned: Vec<f64>,
     /// Its luma.
     pub(crate) luma: Vec<f64>,
-    classes: Option<Classes<'a>>,
-    noise: ReferenceNoise,
+    pub(crate) classes: Option<Classes<'a>>,
+    pub(crate) noise: ReferenceNoise,
+    pub(crate) bias: RelativeBias,
 }
 
 impl<'a> Measurer<'a> {
@@ -77,11 +86,7 @@ impl<'a> Measurer<'a> {
         if !valid.contains(&true) {
             return Err(MetricError::NoReferencePixel { pixels: w * h });
         }
-        let weight = mean
-            .data()
-            .iter()
-            .map(|&r| 1.0 / (f64::from(r).max(0.0).powi(2) + EPSILON)) // ε > 0
-            .collect();
+        let weight = mean.data().iter().map(|&r| weight(f64::from(r))).collect();
         let toned: Vec<f64> = mean.data().iter().map(|&r| tone(r)).collect();
         let n = w * h;
         let luma = (0..n).map(|p| (0..3).map(|c| LUMA[c] * toned[c * n + p]).sum()).collect();
@@ -95,8 +100,10 @@ impl<'a> Measurer<'a> {
             luma,
             classes,
             noise: ReferenceNoise::default(),
+            bias: RelativeBias::default(),
         };
         measurer.noise = ReferenceNoise::new(&measurer);
+        measurer.bias = RelativeBias::new(&measurer);
         Ok(measurer)
     }
 
@@ -130,12 +137,21 @@ impl<'a> Measurer<'a> {
         self.noise.floor(self)
     }
 
-    /// Metric id to a figure that bounds the remaining bias: for `relmse` the mean of var(r)/(r²+ε), the
-    /// second-order term of the noisy denominator, relative to the metric. Empty if the reference's variance
-    /// is unknown.
+    /// How the bias by the noisy denominator of relative errors is estimated, in words; empty where there is none to take
+    /// out or nothing to estimate it with.
     #[must_use]
-    pub fn bias(&self) -> BTreeMap<String, f64> {
-        self.noise.bias(self)
+    pub fn bias_correction(&self) -> &'static str {
+        match (self.bias.is_known(), self.parts_in_a()) {
+            (false, _) => "",
+            (true, Some(_)) => "jackknife over the reference's parts inside each half",
+            (true, None) => "second-order expansion in the reference's variance",
+        }
+    }
+
+    /// Parts that make up half A, if both halves have at least two.
+    pub(crate) fn parts_in_a(&self) -> Option<usize> {
+        let parts = self.reference.parts.len();
+        (parts >= 4 && self.reference.frame.color.halves.is_some()).then(|| parts.div_ceil(2))
     }
 
     /// Computes all metrics.
@@ -162,10 +178,13 @@ impl<'a> Measurer<'a> {
             }
         }
         let mse = values["mse"].unwrap_or(0.0);
+        let (reference, class_reference) = contributions(self, test, &errors, &kept(&errors));
         Ok(Measured {
-            reference_se: self.noise.standard_errors(self, test, &errors.valid, mse),
+            reference_se: self.noise.standard_errors(self, test, &errors.valid, mse, &reference),
             values,
             classes,
+            reference,
+            class_reference,
             non_finite_values: errors.non_finite_values,
             pixels,
             pixels_of: test.pixels(),
@@ -236,28 +255,45 @@ fn finite_pixels(reference: &Reference) -> Vec<bool> {
     valid
 }
 
+/// Pixels that the trimmed mean over all pixels keeps.
+fn kept(errors: &PixelErrors) -> Vec<bool> {
+    let all: Vec<usize> = (0..errors.valid.len()).filter(|&p| errors.valid[p]).collect();
+    let plain: Vec<f64> = all.iter().map(|&p| errors.relative_plain[p]).collect();
+    let mut kept = vec![false; errors.valid.len()];
+    kept_positions(&plain).into_iter().for_each(|at| kept[all[at]] = true);
+    kept
+}
+
 /// All metrics over some pixels, by id.
 pub(crate) fn aggregate(errors: &PixelErrors, pixels: impl Iterator<Item = usize>) -> Values {
     let (mut squared, mut relative, mut toned, mut ssim) = (0.0, 0.0, 0.0, 0.0);
-    let mut plain = Vec::new();
+    let (mut plain, mut corrected) = (Vec::new(), Vec::new());
     for p in pixels {
         squared += errors.squared[p];
         relative += errors.relative[p];
         toned += errors.toned[p];
         ssim += errors.ssim[p];
         plain.push(errors.relative_plain[p]);
+        corrected.push(errors.relative[p]);
     }
     if plain.is_empty() {
         return METRICS.iter().map(|m| (m.id.to_owned(), None)).collect();
     }
     let inverse = 1.0 / plain.len() as f64; // not empty
     let mse = squared * inverse;
+    let trimmed = if errors.corrected {
+        let kept = kept_positions(&plain);
+        let sum: f64 = kept.iter().map(|&at| corrected[at]).sum();
+        (!kept.is_empty()).then(|| sum / kept.len() as f64)
+    } else {
+        trimmed_mean(&mut plain)
+    };
     let psnr = -10.0 * (toned * inverse).log10();
     [
         ("mse", Some(mse)),
         ("rmse", Some(mse.max(0.0).sqrt())),
         ("relmse", Some(relative * inverse)),
-        ("relmse_trimmed", trimmed_mean(&mut plain)),
+        ("relmse_trimmed", trimmed),
         ("psnr", Some(psnr)),
         ("ssim", Some(ssim * inverse)),
     ]

@@ -13,8 +13,10 @@ pub(crate) struct PixelErrors {
     pub(crate) valid: Vec<bool>,
     /// Squared error, corrected for the reference's noise.
     pub(crate) squared: Vec<f64>,
-    /// The same over max(r,0)²+ε.
+    /// The same over max(r,0)²+ε, less the bias by that denominator.
     pub(crate) relative: Vec<f64>,
+    /// That bias.
+    pub(crate) bias: Vec<f64>,
     /// Uncorrected squared error over max(r,0)²+ε.
     pub(crate) relative_plain: Vec<f64>,
     /// Squared error after tone mapping.
@@ -23,6 +25,8 @@ pub(crate) struct PixelErrors {
     pub(crate) ssim: Vec<f64>,
     /// Values of the test image that are NaN or infinite.
     pub(crate) non_finite_values: usize,
+    /// Whether `relative` and `relative_plain` differ at all.
+    pub(crate) corrected: bool,
 }
 
 impl PixelErrors {
@@ -35,9 +39,11 @@ impl PixelErrors {
         let mut errors = Self {
             squared: vec![0.0; n],
             relative: vec![0.0; n],
+            bias: vec![0.0; n],
             relative_plain: vec![0.0; n],
             toned: vec![0.0; n],
             ssim: Vec::new(),
+            corrected: measurer.bias.is_known(),
             non_finite_values: test.count_non_finite(),
             valid,
         };
@@ -50,7 +56,9 @@ impl PixelErrors {
                 let e = x - f64::from(mean[p]);
                 let squared = measurer.numerator(c * n + p, x, e);
                 errors.squared[p] += squared / 3.0;
-                errors.relative[p] += squared * weight[p] / 3.0;
+                let bias = measurer.bias.at(c * n + p, e);
+                errors.bias[p] += bias / 3.0;
+                errors.relative[p] += (squared * weight[p] - bias) / 3.0;
                 errors.relative_plain[p] += e * e * weight[p] / 3.0;
                 let t = tone(plane[p]);
                 let d = t - toned[p];

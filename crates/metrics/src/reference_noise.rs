@@ -6,9 +6,10 @@
 //! of the weighted mean of −d(α+β) + αβ.
 //!
 //! With independent parts P_k (at least 2 per half) the sum is linear in each half, so deleting one part at a
-//! time has a closed form: V_A = Σ_k L_k²/(n_A(n_A−1)) with L_k the weighted mean of (x−B)(P_k−A), likewise
-//! V_B (delete-one jackknife, Miller 1974, per half). Both contain the product term αβ; V_AB, estimated from
-//! the doubly centred products, takes it out once: V = V_A + V_B − V_AB, and never less than V_AB.
+//! time has a closed form: V_A = Σ_k L_k² with L_k the weighted mean of (x−B)(P_k−A) over √(n_A(n_A−1)), likewise V_B
+//! (delete-one jackknife, Miller 1974, per half; see `influence.rs` for the relative error, which is not linear). Both
+//! contain the product term αβ; V_AB, estimated from the doubly centred products, takes it out once: V = V_A + V_B −
+//! V_AB, and never less than V_AB.
 //!
 //! With halves only, (x−(A+B)/2)(A−B) has the same variance as what the reference adds (exactly so for normal
 //! noise of equal halves); its sums over blocks of 32×32 pixels count as independent.
@@ -19,28 +20,29 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_frame::{Image, SquaredError, Variance};
+use noisefloor_frame::{Image, SquaredError};
 
 use crate::bootstrap::blocks;
+use crate::contribution::Contribution;
+use crate::influence::{Contributions, halves_term};
 use crate::measurer::Measurer;
 
 /// Parts of the reference relative to the mean of their half, and the weighted variance of the product term.
 #[derive(Debug, Default)]
 pub(crate) struct ReferenceNoise {
     /// P_k − A for the parts of half A, P_k − B for those of half B; all planes; empty without enough parts.
-    centred: [Vec<Vec<f32>>; 2],
+    pub(crate) centred: [Vec<Vec<f32>>; 2],
     /// V_AB for weight 1 and for weight 1/(max(r,0)²+ε).
-    product: [f64; 2],
+    pub(crate) product: [f64; 2],
+    /// The same over the pixels of each class.
+    pub(crate) class_products: Vec<[f64; 2]>,
 }
 
 impl ReferenceNoise {
     pub(crate) fn new(measurer: &Measurer<'_>) -> Self {
         let parts = &measurer.reference.parts;
-        let in_a = parts.len().div_ceil(2);
         let Some([a, b]) = &measurer.reference.frame.color.halves else { return Self::default() };
-        if parts.len() < 4 {
-            return Self::default();
-        }
+        let Some(in_a) = measurer.parts_in_a() else { return Self::default() };
         let centre = |parts: &[Image], half: &Image| -> Vec<Vec<f32>> {
             let differences = |part: &Image| {
                 let valid = measurer.valid.iter().cycle();
@@ -52,18 +54,22 @@ impl ReferenceNoise {
         let centred = [centre(&parts[..in_a], a), centre(&parts[in_a..], b)];
         let used = count(&measurer.valid);
         let mut product = [0.0; 2];
+        let mut classes = ClassProducts::new(measurer);
         for left in &centred[0] {
             for right in &centred[1] {
                 let values: Vec<f64> =
                     left.iter().zip(right).map(|(&l, &r)| f64::from(l) * f64::from(r)).collect();
                 product[0] += (values.iter().sum::<f64>() / used).powi(2);
                 product[1] += (dot(&values, &measurer.weight) / used).powi(2);
+                classes.add(measurer, &values);
             }
         }
         let (na, nb) = (centred[0].len() as f64, centred[1].len() as f64);
         // Both halves have at least 2 parts.
-        let product = product.map(|sum| sum / (na * (na - 1.0) * nb * (nb - 1.0)));
-        Self { centred, product }
+        let pairs = na * (na - 1.0) * nb * (nb - 1.0);
+        let product = product.map(|sum| sum / pairs);
+        let class_products = classes.sums.iter().map(|sums| sums.map(|sum| sum / pairs)).collect();
+        Self { centred, product, class_products }
     }
 
     /// Metric id to standard error from the reference, for a test image whose `mse` is known.
@@ -73,14 +79,19 @@ impl ReferenceNoise {
         test: &Image,
         valid: &[bool],
         mse: f64,
+        contributions: &Contributions,
     ) -> BTreeMap<String, f64> {
+        let variance_of = |id: &str| contributions.get(id).and_then(Contribution::variance).unwrap_or(0.0);
         let variances = match measurer.squared_error() {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
-            SquaredError::Halves if !self.centred[0].is_empty() => self.jackknife(measurer, test, valid),
+            SquaredError::Halves if !self.centred[0].is_empty() => ["mse", "relmse"].map(variance_of),
             SquaredError::Halves => from_halves(measurer, test, valid),
             SquaredError::SubtractVariance => from_variance(measurer, test, valid),
         };
-        named(variances.map(f64::sqrt), mse)
+        let mut out = named(variances.map(f64::sqrt), mse);
+        let trimmed = contributions.get("relmse_trimmed").and_then(Contribution::variance);
+        out.extend(trimmed.map(|variance| ("relmse_trimmed".to_owned(), variance.sqrt())));
+        out
     }
 
     /// The same for an image that equals the truth.
@@ -93,57 +104,39 @@ impl ReferenceNoise {
         };
         named(variances.map(f64::sqrt), 0.0)
     }
-
-    /// Mean of var(r)/(max(r,0)²+ε).
-    pub(crate) fn bias(&self, measurer: &Measurer<'_>) -> BTreeMap<String, f64> {
-        let frame = &measurer.reference.frame;
-        let from_halves = || {
-            let halves = frame.color.halves.as_ref()?;
-            Variance::from_halves(halves, &frame.samples).ok()
-        };
-        let Some(variance) = frame.color.variance.clone().or_else(from_halves) else {
-            return BTreeMap::new();
-        };
-        let values = variance.mean_variance().data();
-        let terms = values.iter().zip(&measurer.weight).zip(measurer.valid.iter().cycle());
-        let sum: f64 = terms.filter(|(_, ok)| **ok).map(|((&v, w), _)| f64::from(v) * w).sum();
-        [("relmse".to_owned(), sum / count(&measurer.valid))].into()
-    }
-
-    fn jackknife(&self, measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
-        let Some(halves) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
-        let used = count(valid);
-        let mut variances = [0.0; 2];
-        // Parts of A multiply the residual to B, and the other way round.
-        for (parts, other) in self.centred.iter().zip([&halves[1], &halves[0]]) {
-            let residual: Vec<f64> = test
-                .data()
-                .iter()
-                .zip(other.data())
-                .zip(valid.iter().cycle())
-                .map(|((&x, &r), &ok)| if ok { f64::from(x) - f64::from(r) } else { 0.0 })
-                .collect();
-            let weighted: Vec<f64> = residual.iter().zip(&measurer.weight).map(|(e, w)| e * w).collect();
-            // Piece by piece, so that each piece of the residuals stays in the cache for all parts.
-            let mut sums = vec![[0.0; 2]; parts.len()];
-            for start in (0..residual.len()).step_by(PIECE) {
-                let piece = start..(start + PIECE).min(residual.len());
-                for (sums, part) in sums.iter_mut().zip(parts) {
-                    sums[0] += dot(&residual[piece.clone()], &part[piece.clone()]);
-                    sums[1] += dot(&weighted[piece.clone()], &part[piece.clone()]);
-                }
-            }
-            let n = parts.len() as f64; // at least 2
-            for (k, variance) in variances.iter_mut().enumerate() {
-                *variance += sums.iter().map(|s| (s[k] / used).powi(2)).sum::<f64>() / (n * (n - 1.0));
-            }
-        }
-        [0, 1].map(|k| (variances[k] - self.product[k]).max(self.product[k]))
-    }
 }
 
-/// Values in a piece of a sum.
-const PIECE: usize = 2048;
+/// V_AB over the pixels of each class, before division.
+struct ClassProducts {
+    /// Values in each class.
+    counts: Vec<f64>,
+    sums: Vec<[f64; 2]>,
+}
+
+impl ClassProducts {
+    fn new(measurer: &Measurer<'_>) -> Self {
+        let names = measurer.classes.map_or(0, |classes| classes.names.len());
+        let mut counts = vec![0.0; names];
+        if let Some(classes) = &measurer.classes {
+            let valid = measurer.valid.iter().zip(classes.of_pixel).filter(|(ok, _)| **ok);
+            valid.for_each(|(_, &class)| counts[usize::from(class)] += 3.0);
+        }
+        Self { counts, sums: vec![[0.0; 2]; names] }
+    }
+
+    fn add(&mut self, measurer: &Measurer<'_>, values: &[f64]) {
+        let Some(classes) = &measurer.classes else { return };
+        let mut means = vec![[0.0; 2]; self.sums.len()];
+        for ((&value, w), &class) in values.iter().zip(&measurer.weight).zip(classes.of_pixel.iter().cycle())
+        {
+            let mean = &mut means[usize::from(class)];
+            (mean[0], mean[1]) = (mean[0] + value, mean[1] + value * w);
+        }
+        for ((sums, mean), count) in self.sums.iter_mut().zip(means).zip(&self.counts) {
+            sums.iter_mut().zip(mean).for_each(|(sum, mean)| *sum += (mean / count.max(1.0)).powi(2));
+        }
+    }
+}
 
 /// Values that enter a mean: three channels of each valid pixel, at least 1 so that means of nothing are 0.
 fn count(valid: &[bool]) -> f64 {
@@ -173,12 +166,12 @@ fn dot<T: Copy + Into<f64>>(a: &[f64], b: &[T]) -> f64 {
     lanes.iter().sum::<f64>() + rest
 }
 
-/// Block sums of w·(x−(A+B)/2)(A−B), squared and added, over the squared count; for both weights.
+/// Block sums of (x−(A+B)/2)(A−B), squared and added, over the squared count; and of the relative error's term.
 fn from_halves(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
     let Some([a, b]) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
     block_variance(measurer, valid, |i| {
         let (x, a, b) = (f64::from(test.data()[i]), f64::from(a.data()[i]), f64::from(b.data()[i]));
-        (x - 0.5 * (a + b)) * (a - b)
+        [(x - 0.5 * (a + b)) * (a - b), halves_term(measurer, i, x, a, b)]
     })
 }
 
@@ -206,15 +199,13 @@ fn pixel_variance(measurer: &Measurer<'_>, valid: &[bool], variance: impl Fn(usi
     sums.map(|sum| sum / count(valid).powi(2))
 }
 
-fn block_variance(measurer: &Measurer<'_>, valid: &[bool], term: impl Fn(usize) -> f64) -> [f64; 2] {
+fn block_variance(measurer: &Measurer<'_>, valid: &[bool], terms: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
     let n = valid.len();
     let mut sums = [0.0; 2];
     for block in blocks(measurer.mean.width(), measurer.mean.height(), |p| valid[p]) {
         let mut totals = [0.0; 2];
         for i in block.iter().flat_map(|p| [*p, n + p, 2 * n + p]) {
-            let value = term(i);
-            totals[0] += value;
-            totals[1] += value * measurer.weight[i];
+            totals.iter_mut().zip(terms(i)).for_each(|(total, term)| *total += term);
         }
         sums.iter_mut().zip(totals).for_each(|(sum, total)| *sum += total * total);
     }

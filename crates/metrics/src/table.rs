@@ -78,7 +78,8 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "relmse",
         name: "rMSE",
-        formula: "mean (x−r)²/(max(r,0)²+ε), ε = 0.01, squared error corrected as in MSE",
+        formula: "mean (x−r)²/(max(r,0)²+ε), ε = 0.01, squared error corrected as in MSE, less the bias by the \
+                  reference's noise in the denominator",
         epsilon: Some(EPSILON),
         averaging: "ratio per pixel and channel, then mean over pixels and channels",
         lower_is_better: true,
@@ -90,13 +91,13 @@ pub const METRICS: &[Metric] = &[
     Metric {
         id: "relmse_trimmed",
         name: "rMSE trimmed",
-        formula: "mean (x−r)²/(max(r,0)²+ε), ε = 0.01, without the 0.1 % of the pixels (rounded up) where \
-                  its mean over the channels is largest",
+        formula: "as rMSE, without the 0.1 % of the pixels (rounded up) where the mean of (x−r)²/(max(r,0)²+ε) over \
+                  the channels is largest",
         epsilon: Some(EPSILON),
         averaging: "ratio per pixel and channel, mean over channels, then mean over the pixels kept",
         lower_is_better: true,
         unit: "",
-        reference_noise_removed: false,
+        reference_noise_removed: true,
         order: None,
         non_finite: LEFT_OUT,
     },

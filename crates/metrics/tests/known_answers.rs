@@ -97,6 +97,13 @@ fn ssim_of_an_inverted_pattern_is_negative() {
     assert!(measured.values["ssim"].unwrap() < -0.9);
 }
 
+/// v·(½f″(r)·N − 2f′(r)·y) for f = 1/(r²+ε).
+fn second_order(r: f64, v: f64, y: f64, numerator: f64) -> f64 {
+    let f = 1.0 / (r * r + EPSILON);
+    let (slope, curvature) = (-2.0 * r * f * f, (6.0 * r * r - 2.0 * EPSILON) * f.powi(3));
+    v * (0.5 * curvature * numerator - 2.0 * slope * y)
+}
+
 #[test]
 fn halves_take_the_product_of_residuals() {
     let reference = with_halves(Image::filled(4, 4, 3, 1.0), Image::filled(4, 4, 3, 2.0));
@@ -104,7 +111,11 @@ fn halves_take_the_product_of_residuals() {
     assert_eq!(measurer.squared_error(), SquaredError::Halves);
     let measured = measurer.measure(&Image::filled(4, 4, 3, 3.0)).unwrap();
     assert_value(&measured, "mse", 2.0);
-    assert_value(&measured, "relmse", 2.0 / (2.25 + EPSILON));
+    // v = 0.25, y = x − r = 1.5, N = 2: less v·(½f″N − 2f′y).
+    let bias = second_order(1.5, 0.25, 1.5, 2.0);
+    assert_value(&measured, "relmse", 2.0 / (2.25 + EPSILON) - bias);
+    assert!((measured.reference["relmse"].bias - bias).abs() < 1e-6, "{bias}");
+    assert_eq!(measurer.bias_correction(), "second-order expansion in the reference's variance");
     let between = measurer.measure(&Image::filled(4, 4, 3, 1.5)).unwrap();
     assert_value(&between, "mse", -0.25);
     assert_value(&between, "rmse", 0.0);
@@ -123,7 +134,9 @@ fn a_variance_is_subtracted() {
     assert_value(&measured, "mse", 0.75);
     // 4·1·0.25 − 2·0.25² = 0.875 per value; 16 pixels, their channels counted as one.
     assert!((measured.reference_se["mse"] - (0.875f64 / 16.0).sqrt()).abs() < 1e-9);
-    assert!((measurer.bias()["relmse"] - 0.25 / 1.01).abs() < 1e-7);
+    let bias = second_order(1.0, 0.25, 1.0, 0.75);
+    assert!((measured.reference["relmse"].bias - bias).abs() < 1e-6, "{bias}");
+    assert_value(&measured, "relmse", 0.75 / 1.01 - bias);
     assert!((measurer.floor()["mse"] - (2.0 * 0.0625f64 / 16.0).sqrt()).abs() < 1e-9);
 }
 
@@ -193,7 +206,7 @@ fn every_metric_of_the_table_is_measured_at_any_size() {
     }
     assert_eq!(metric("relmse").unwrap().epsilon, Some(EPSILON));
     assert!(metric("relmse").unwrap().formula_text().contains("ε = 0.01"));
-    assert!(metric("relmse_trimmed").unwrap().formula_text().contains("not corrected"));
+    assert!(metric("relmse_trimmed").unwrap().formula_text().contains("noise removed"));
     assert!(metric("rms").unwrap_err().to_string().contains("mse, rmse, relmse"));
 }
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::interval::mean_and_variance;
-use crate::{Effect, Level, holm_adjusted, paired_effect};
+use crate::{Effect, Level, ReferenceShare, holm_adjusted, paired_effect};
 
 /// Which values are better.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -37,13 +37,14 @@ impl Family {
     }
 }
 
-/// One method's values by replicate; all rows in the same order of replicates, `None` where it did not run.
+/// One method's values by replicate; all rows in the same order of replicates, `None` where it did not run. A value that is
+/// not finite counts as missing.
 #[derive(Debug, Clone, Copy)]
 pub struct Row<'a> {
     /// Values by replicate.
     pub values: &'a [Option<f64>],
-    /// Standard error of their mean that the reference contributes.
-    pub reference_se: f64,
+    /// What the reference contributes to their mean.
+    pub reference: &'a ReferenceShare,
 }
 
 /// Two rows, by index.
@@ -76,14 +77,15 @@ pub struct Comparison {
 /// two-sided `level`.
 ///
 /// Errors are compared by their log ratio, or by their difference where a corrected error is not positive.
-/// Pairs with fewer than two common replicates cannot be told apart.
+/// Pairs with fewer than two common replicates cannot be told apart; replicates where either value is not finite are
+/// left out and counted.
 #[must_use]
 pub fn compare(rows: &[Row<'_>], direction: Direction, family: Family, level: Level) -> Comparison {
     let mut ranked: Vec<(usize, f64)> = rows
         .iter()
         .enumerate()
         .filter_map(|(i, row)| {
-            let values: Vec<f64> = row.values.iter().copied().flatten().collect();
+            let values: Vec<f64> = row.values.iter().copied().flatten().filter(|v| v.is_finite()).collect();
             mean_and_variance(&values).map(|(mean, _)| (i, mean))
         })
         .collect();
@@ -99,7 +101,7 @@ pub fn compare(rows: &[Row<'_>], direction: Direction, family: Family, level: Le
     let mut pairs = Vec::new();
     for (rank, &a) in ranking[..firsts].iter().enumerate() {
         for &b in &ranking[rank + 1..] {
-            let common = [rows[a].reference_se, rows[b].reference_se];
+            let common = [rows[a].reference, rows[b].reference];
             let ratio = direction == Direction::LowerIsBetter;
             if let Some(effect) = paired_effect(rows[a].values, rows[b].values, common, ratio, level) {
                 pairs.push(Pair { a, b, effect, p_adjusted: effect.p, distinguishable: false });
@@ -109,7 +111,8 @@ pub fn compare(rows: &[Row<'_>], direction: Direction, family: Family, level: Le
     let adjusted = holm_adjusted(&pairs.iter().map(|pair| pair.effect.p).collect::<Vec<_>>());
     for (pair, p) in pairs.iter_mut().zip(adjusted) {
         pair.p_adjusted = p;
-        pair.distinguishable = p <= level.alpha();
+        // A single pair has no spread and p = 1, which no level may call a difference.
+        pair.distinguishable = pair.effect.interval.n >= 2 && p <= level.alpha();
     }
     let told_from_best =
         |row: usize| pairs.iter().any(|pair| (pair.a, pair.b) == (ranking[0], row) && pair.distinguishable);
@@ -122,8 +125,10 @@ mod tests {
     use super::*;
     use crate::test_random::Normals;
 
+    static NONE: ReferenceShare = ReferenceShare { standard_error: 0.0, parts: Vec::new(), product: 0.0 };
+
     fn rows(values: &[Vec<Option<f64>>]) -> Vec<Row<'_>> {
-        values.iter().map(|v| Row { values: v, reference_se: 0.0 }).collect()
+        values.iter().map(|v| Row { values: v, reference: &NONE }).collect()
     }
 
     #[test]
@@ -156,6 +161,22 @@ mod tests {
         // Holm keeps the family-wise rate at 5 % or below; four standard errors above.
         let limit = 0.05 + 4.0 * crate::rate_standard_error(0.05, trials);
         assert!(f64::from(any) / trials as f64 <= limit, "{any} of {trials}");
+    }
+
+    #[test]
+    fn a_value_that_is_not_finite_is_a_missing_replicate() {
+        let some = |v: &[f64]| v.iter().copied().map(Some).collect::<Vec<_>>();
+        let level = Level::TWO_SIDED_95;
+        let with = |a: &[f64], b: &[f64]| {
+            compare(&rows(&[some(a), some(b)]), Direction::LowerIsBetter, Family::AllPairs, level)
+        };
+        let c = with(&[1.0, f64::NAN], &[100.0, 101.0]);
+        assert!(!c.pairs[0].distinguishable && c.pairs[0].effect.not_finite == 1, "{c:?}");
+        assert_eq!((c.ranking.clone(), c.best_group), (vec![0, 1], vec![0, 1]));
+        let c = with(&[1.0, f64::NAN, 1.1, 0.9], &[100.0, 99.0, 101.0, 100.0]);
+        assert!(c.pairs[0].distinguishable && c.pairs[0].effect.interval.n == 3);
+        let c = with(&[f64::NAN, f64::INFINITY], &[100.0, 99.0]);
+        assert_eq!((c.ranking, c.pairs.len()), (vec![1], 0), "a row without a finite value takes no part");
     }
 
     #[test]

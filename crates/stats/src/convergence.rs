@@ -109,10 +109,11 @@ fn ends(levels: &Levels, whole: Option<&Slope>, level: Level) -> (Option<Interva
     let head = slope_between(levels, level, 0.0, first * RANGE * 1.001);
     let flattening = tail.as_ref().zip(head).and_then(|(tail, head)| {
         let differences: Vec<f64> =
-            tail.per_replicate.iter().zip(&head.per_replicate).map(|(t, h)| t - h).collect();
-        replicate_interval(&differences, 0.0, level)
+            tail.slope.per_replicate.iter().zip(&head.slope.per_replicate).map(|(t, h)| t - h).collect();
+        let gradient: Vec<f64> = tail.gradient.iter().zip(&head.gradient).map(|(t, h)| t - h).collect();
+        replicate_interval(&differences, levels.combined(&gradient).standard_error, level)
     });
-    (tail.map(|t| t.interval), flattening)
+    (tail.map(|t| t.slope.interval), flattening)
 }
 
 /// b in the unit of the metric.

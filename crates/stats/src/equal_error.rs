@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Interval, Level, MonteCarloFit, replicate_interval};
+use crate::{Interval, Level, MonteCarloFit, ReferenceShare, replicate_interval};
 
 /// An equal-error multiplier.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -19,20 +19,24 @@ pub struct Multiplier {
 
 /// c/(n·error) from Monte Carlo's constant and a method's squared errors at `spp` samples, one per replicate.
 ///
-/// The interval is that of the logarithm, by the delta method: squared relative standard errors of c and of
-/// the mean error add up. The two come from the same inputs and mostly move together, so this errs on the
-/// wide side. Student's t with the smaller number of degrees of freedom, that of the replicates. `None`
-/// without errors, or if no positive limit exists.
+/// The interval is that of the logarithm, by the delta method: squared relative standard errors of c and of the mean error
+/// over replicates add up, as if independent. Both come from the same inputs: that is too much where they move together, as
+/// the error of a filter mostly does with its input's, and too little where they move against each other. What the
+/// reference contributes is the share in ln c − ln error, exact where the influences of its parts are known. Student's t
+/// with the smaller number of degrees of freedom, that of the replicates. `None` without errors, or if no positive limit
+/// exists.
 #[must_use]
 pub fn equal_error_multiplier(
     fit: &MonteCarloFit,
     spp: f64,
     errors: &[f64],
-    reference_se: f64,
+    reference: &ReferenceShare,
     largest_spp: f64,
     level: Level,
 ) -> Option<Multiplier> {
+    let reference_se = reference.standard_error;
     let error = replicate_interval(errors, reference_se, level)?;
+    let spread = replicate_interval(errors, 0.0, level)?;
     let c = fit.c.value;
     if !(c > 0.0 && spp > 0.0) {
         return None;
@@ -43,10 +47,16 @@ pub fn equal_error_multiplier(
         return Some(Multiplier { interval, extrapolated: spp * limit > largest_spp, at_least: true });
     }
     let value = c / (spp * error.value);
-    let interval = match (error.standard_error, fit.c.standard_error) {
-        (Some(own), Some(constant)) => {
-            let relative = (own / error.value).hypot(constant / c);
-            let degrees = Some(errors.len() as u64 - 1); // a standard error needs two replicates
+    let interval = match (spread.standard_error, fit.replicate_se, fit.c.standard_error) {
+        (Some(own), Some(own_of_c), Some(of_c)) => {
+            let relative = if reference.has_parts() && fit.reference.has_parts() {
+                let shared =
+                    ReferenceShare::combined(&[(1.0 / c, &fit.reference), (-1.0 / error.value, reference)]);
+                (own / error.value).hypot(own_of_c / c).hypot(shared.standard_error)
+            } else {
+                (own.hypot(reference_se) / error.value).hypot(of_c / c)
+            };
+            let degrees = Some(u64::from(error.n.max(2)) - 1); // a standard error needs two replicates
             Interval::symmetric(value.ln(), relative, level, degrees, error.n).exp()
         }
         _ => Interval { n: error.n, ..Interval::point(value, level) },
@@ -60,6 +70,7 @@ mod tests {
     use crate::{Levels, monte_carlo_constant};
 
     const LEVEL: Level = Level::TWO_SIDED_95;
+    const NONE: ReferenceShare = ReferenceShare { standard_error: 0.0, parts: Vec::new(), product: 0.0 };
 
     fn fit() -> MonteCarloFit {
         let mut levels = Levels::new();
@@ -72,23 +83,24 @@ mod tests {
     #[test]
     fn monte_carlo_itself_has_multiplier_one() {
         let m =
-            equal_error_multiplier(&fit(), 16.0, &[1.02 / 16.0, 0.98 / 16.0, 1.0 / 16.0], 0.0, 64.0, LEVEL);
+            equal_error_multiplier(&fit(), 16.0, &[1.02 / 16.0, 0.98 / 16.0, 1.0 / 16.0], &NONE, 64.0, LEVEL);
         let m = m.unwrap();
         assert!((m.interval.value - 1.0).abs() < 1e-9 && !m.extrapolated && !m.interval.excludes(1.0));
     }
 
     #[test]
     fn beyond_the_rendered_levels_it_is_marked() {
-        let m = equal_error_multiplier(&fit(), 16.0, &[0.011, 0.009], 0.0, 64.0, LEVEL).unwrap();
+        let m = equal_error_multiplier(&fit(), 16.0, &[0.011, 0.009], &NONE, 64.0, LEVEL).unwrap();
         assert!((m.interval.value - 6.25).abs() < 0.01 && m.extrapolated && !m.at_least);
         assert!(m.interval.low.unwrap() > 0.0);
-        let m = equal_error_multiplier(&fit(), 16.0, &[0.1, 0.1], 0.0, 64.0, LEVEL).unwrap();
+        let m = equal_error_multiplier(&fit(), 16.0, &[0.1, 0.1], &NONE, 64.0, LEVEL).unwrap();
         assert!((m.interval.value - 0.625).abs() < 1e-3 && !m.extrapolated);
     }
 
     #[test]
     fn an_error_below_zero_gives_a_lower_limit() {
-        let m = equal_error_multiplier(&fit(), 4.0, &[-0.01, -0.02, -0.01], 0.005, 64.0, LEVEL).unwrap();
+        let m =
+            equal_error_multiplier(&fit(), 4.0, &[-0.01, -0.02, -0.01], &0.005.into(), 64.0, LEVEL).unwrap();
         assert!(m.at_least && m.interval.high.is_none());
         assert!(m.interval.low.unwrap() <= 1.0 / (4.0 * 0.005) + 1e-9);
     }

@@ -91,15 +91,18 @@ pub(crate) fn mean_and_variance(values: &[f64]) -> Option<(f64, f64)> {
     Some((mean, if values.len() > 1 { m2 / (n - 1.0) } else { 0.0 }))
 }
 
-/// Mean over replicates with its t-interval; `None` if there are no values.
+/// Mean over replicates with its t-interval; `None` if there are no values. Values that are not finite are missing.
 ///
 /// `common_se` is a standard error that all replicates share, such as the reference's contribution: no
-/// average removes it, so it is added in quadrature to that over replicates. The critical value stays that of
-/// n−1 degrees of freedom, which errs on the wide side. One replicate gives a number without an interval.
+/// average removes it, so it is added in quadrature to that over replicates. The critical value stays that of n−1 degrees
+/// of freedom: too large where the reference dominates and is better known than a spread of n values, a little too small
+/// where it is known from fewer parts than there are replicates. One replicate gives a number without an interval.
 #[must_use]
 pub fn replicate_interval(values: &[f64], common_se: f64, level: Level) -> Option<Interval> {
-    let (mean, variance) = mean_and_variance(values)?;
-    let n = values.len();
+    let finite: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();
+    let (mean, variance) = mean_and_variance(&finite)?;
+    let n = finite.len();
+    let common_se = common_se.max(0.0); // none if it is no number
     if n < 2 {
         return Some(Interval::point(mean, level));
     }
@@ -126,6 +129,14 @@ mod tests {
         let i = replicate_interval(&[7.0], 0.3, Level::TWO_SIDED_95).unwrap();
         assert_eq!((i.value, i.standard_error, i.low, i.n), (7.0, None, None, 1));
         assert!(replicate_interval(&[], 0.0, Level::TWO_SIDED_95).is_none());
+    }
+
+    #[test]
+    fn values_that_are_not_finite_are_missing() {
+        let level = Level::TWO_SIDED_95;
+        let holed = replicate_interval(&[1.0, f64::NAN, 3.0, f64::INFINITY], f64::NAN, level);
+        assert_eq!(holed, replicate_interval(&[1.0, 3.0], 0.0, level));
+        assert_eq!(replicate_interval(&[f64::NAN], 0.0, level), None);
     }
 
     #[test]

@@ -13,9 +13,26 @@ pub enum Sides {
 
 /// A confidence level: probability 1−α and sidedness, never a bare number.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Raw")]
 pub struct Level {
     confidence: f64,
     sides: Sides,
+}
+
+/// A level as it stands in a file.
+#[derive(Deserialize)]
+#[serde(rename = "Level")]
+struct Raw {
+    confidence: f64,
+    sides: Sides,
+}
+
+impl TryFrom<Raw> for Level {
+    type Error = LevelError;
+
+    fn try_from(raw: Raw) -> Result<Self, LevelError> {
+        Self::new(raw.confidence, raw.sides)
+    }
 }
 
 /// A confidence outside (0, 1).

@@ -1,9 +1,11 @@
+use crate::ReferenceShare;
+
 /// Errors of one method on one scene by sample count and replicate.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Levels {
     spp: Vec<f64>,
     values: Vec<Vec<Option<f64>>>,
-    reference_se: Vec<f64>,
+    reference: Vec<ReferenceShare>,
 }
 
 impl Levels {
@@ -14,15 +16,15 @@ impl Levels {
     }
 
     /// Adds a level: samples per pixel, the error of each replicate (the same replicate at the same index in
-    /// all levels, `None` or a value that is not finite where it is missing) and the standard error that the
-    /// reference contributes. A level without any value, or whose `spp` is not positive, is ignored.
-    pub fn push(&mut self, spp: f64, values: &[Option<f64>], reference_se: f64) {
+    /// all levels, `None` or a value that is not finite where it is missing) and what the reference contributes to
+    /// their mean. A level without any value, or whose `spp` is not positive, is ignored.
+    pub fn push(&mut self, spp: f64, values: &[Option<f64>], reference: impl Into<ReferenceShare>) {
         let values: Vec<Option<f64>> = values.iter().map(|v| v.filter(|v| v.is_finite())).collect();
         if spp > 0.0 && spp.is_finite() && values.iter().any(Option::is_some) {
             let at = self.spp.partition_point(|&s| s < spp);
             self.spp.insert(at, spp);
             self.values.insert(at, values);
-            self.reference_se.insert(at, reference_se.max(0.0));
+            self.reference.insert(at, reference.into());
         }
     }
 
@@ -50,7 +52,19 @@ impl Levels {
     }
 
     pub(crate) fn reference_se(&self, level: usize) -> f64 {
-        self.reference_se[level]
+        self.reference[level].standard_error
+    }
+
+    /// What the reference contributes to Σ weight·mean over the levels.
+    pub(crate) fn combined(&self, weights: &[f64]) -> ReferenceShare {
+        let terms: Vec<_> = weights.iter().copied().zip(&self.reference).filter(|(w, _)| *w != 0.0).collect();
+        ReferenceShare::combined(&terms)
+    }
+
+    /// Whether the influences of the reference's parts are known wherever it contributes anything.
+    pub(crate) fn has_parts(&self) -> bool {
+        self.reference.iter().any(ReferenceShare::has_parts)
+            && self.reference.iter().all(|share| share.has_parts() || share.standard_error == 0.0)
     }
 
     /// The value of a replicate at a level.
@@ -71,7 +85,7 @@ impl Levels {
         for (level, values) in out.values.iter_mut().enumerate() {
             let present = self.present(level);
             let mean = present.iter().sum::<f64>() / present.len() as f64; // never empty
-            out.reference_se[level] = 2.0 * mean.abs() * self.reference_se[level];
+            out.reference[level] = self.reference[level].scaled(2.0 * mean);
             *values = self.values[level].iter().map(square).collect();
         }
         out

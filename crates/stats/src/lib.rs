@@ -10,6 +10,7 @@
 //! | Does an error bound hold? | [`half_widths`], [`bound_violations`], [`bound_verdict`], [`enclosure`] |
 //! | Which method is better? | [`compare`], [`holm_adjusted`], [`paired_ratio`] |
 //! | How fast does the error fall, and to what? | [`slope`], [`convergence`], [`monte_carlo_constant`], [`equal_error_multiplier`] |
+//! | What does a common reference add to ratios and slopes? | [`ReferenceShare`] |
 //! | Which methods are worth their time? | [`pareto_front`] |
 
 mod bounds;
@@ -28,6 +29,7 @@ mod paired;
 mod pareto;
 mod plateau;
 mod proportion;
+mod share;
 mod slope;
 mod student;
 
@@ -50,5 +52,6 @@ pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};
 pub use pareto::pareto_front;
 pub use plateau::{Plateau, plateau};
 pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_error};
+pub use share::ReferenceShare;
 pub use slope::{Slope, slope};
 pub use student::{TTable, normal_quantile, t_quantile, t_two_sided_p};

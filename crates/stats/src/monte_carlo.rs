@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Interval, Level, Levels};
+use crate::{Interval, Level, Levels, ReferenceShare};
 
 /// The constant of error = c/n.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -14,6 +14,10 @@ pub struct MonteCarloFit {
     /// Largest deviation of a level from the fit in standard errors, where these are known: values well above
     /// 4 say that the frames do not behave as independent samples, or that the reference is too short.
     pub worst_deviation: Option<f64>,
+    /// Standard error of c over replicates, without the reference's part; absent like the interval.
+    pub replicate_se: Option<f64>,
+    /// What the reference contributes to c.
+    pub reference: ReferenceShare,
 }
 
 /// Fits c over all levels of a squared error; `None` without levels or if the fit is not positive.
@@ -21,8 +25,9 @@ pub struct MonteCarloFit {
 /// Every level estimates c by n times its mean error. Levels are averaged with weights 1/variance, where the
 /// variance is that of the mean over the level's replicates, from a relative spread pooled over all levels
 /// (so that no level is favoured because its few replicates happen to agree), plus the reference's
-/// contribution, which n magnifies. The interval is Student's t with the pooled degrees of freedom; without
-/// two replicates at any level there is none.
+/// contribution, which n magnifies. That part of c's own standard error follows the gradient where the influences of the
+/// reference's parts are known, and counts as independent between levels where they are not. The interval is Student's t
+/// with the pooled degrees of freedom; without two replicates at any level there is none.
 #[must_use]
 pub fn monte_carlo_constant(levels: &Levels, level: Level) -> Option<MonteCarloFit> {
     let size = |l: usize| mean(&levels.present(l));
@@ -45,16 +50,23 @@ pub fn monte_carlo_constant(levels: &Levels, level: Level) -> Option<MonteCarloF
         c = weighted_mean(&estimates, &weights).filter(|c| *c > 0.0)?;
     }
     let n = counts.iter().sum::<f64>() as u32;
-    let interval = match pooled {
-        Some((_, degrees)) => {
-            let se = 1.0 / variances.iter().map(|v| 1.0 / v).sum::<f64>().sqrt();
+    let total: f64 = variances.iter().map(|v| 1.0 / v).sum();
+    let shares: Vec<f64> = variances.iter().map(|v| 1.0 / (v * total)).collect(); // positive
+    let by_error: Vec<f64> = shares.iter().zip(levels.spp()).map(|(share, n)| share * n).collect();
+    let reference = levels.combined(&by_error);
+    let own = |l: usize| shares[l].powi(2) * relative * c * c / counts[l];
+    let replicate_se = pooled.map(|_| (0..levels.len()).map(own).sum::<f64>().sqrt());
+    let interval = match (pooled, replicate_se) {
+        (Some((_, degrees)), Some(own)) => {
+            let se =
+                if levels.has_parts() { own.hypot(reference.standard_error) } else { 1.0 / total.sqrt() };
             Interval::symmetric(c, se, level, Some(degrees), n)
         }
-        None => Interval { n, ..Interval::point(c, level) },
+        _ => Interval { n, ..Interval::point(c, level) },
     };
     let worst_deviation = pooled
         .map(|_| estimates.iter().zip(&variances).map(|(e, v)| (e - c).abs() / v.sqrt()).fold(0.0, f64::max));
-    Some(MonteCarloFit { c: interval, per_level: estimates, worst_deviation })
+    Some(MonteCarloFit { c: interval, per_level: estimates, worst_deviation, replicate_se, reference })
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -117,6 +117,9 @@ impl Truth<'_> {
     }
 }
 
+/// More groups than a map of bytes can name have no members.
+const LARGEST_GROUPS: usize = 256;
+
 /// Counts that can be added up.
 pub(crate) trait Tally: Default + Clone {
     fn add(&mut self, other: &Self);
@@ -132,7 +135,7 @@ pub(crate) fn tally<T: Tally>(
     if let Some(groups) = groups {
         expect("group map", groups.of_pixel.len(), pixels)?;
     }
-    let mut tallies = vec![T::default(); 1 + groups.map_or(0, |g| g.count)];
+    let mut tallies = vec![T::default(); 1 + groups.map_or(0, |g| g.count.min(LARGEST_GROUPS))];
     for pixel in 0..pixels {
         let counted = visit(pixel);
         tallies[0].add(&counted);

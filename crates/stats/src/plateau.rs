@@ -20,8 +20,9 @@ pub struct Plateau {
 /// over the level's replicates, plus the squared standard error from the reference; the weights are its
 /// inverse, iterated with the fit. Where the unconstrained fit has b or c below 0, that one is 0 and the
 /// other fitted alone. The interval of b is that of the unconstrained fit: the spread over replicates carried
-/// through the fit, Student's t with the pooled degrees of freedom, and the reference's standard error at the
-/// top level in quadrature, because what the reference adds to the bias is the same at all levels.
+/// through the fit, Student's t with the pooled degrees of freedom, and what the reference contributes in quadrature: along
+/// the fit's gradient where the influences of its parts are known, else its standard error at the top level, as if what it
+/// adds were the same at all levels.
 #[must_use]
 pub fn plateau(levels: &Levels, level: Level) -> Option<Plateau> {
     if levels.len() < 3 {
@@ -61,7 +62,12 @@ pub fn plateau(levels: &Levels, level: Level) -> Option<Plateau> {
         Some((relative, degrees)) => {
             let spread =
                 fit.b_weights.iter().zip(&fitted).zip(&counts).map(|((h, f), r)| (h * f).powi(2) / r);
-            let se = (relative * spread.sum::<f64>()).sqrt().hypot(levels.reference_se(top));
+            let reference = if levels.has_parts() {
+                levels.combined(&fit.b_weights).standard_error
+            } else {
+                levels.reference_se(top)
+            };
+            let se = (relative * spread.sum::<f64>()).sqrt().hypot(reference);
             let half = t_quantile(level, degrees) * se;
             Interval {
                 value: b,

@@ -47,7 +47,8 @@ pub fn clustered_rate(hits: &[bool], pixels: usize) -> Option<Rate> {
 pub fn proportion_interval(rates: &[f64], trials: u64, level: Level) -> Option<Interval> {
     let mut interval = replicate_interval(rates, 0.0, level)?;
     if let (Some(low), Some(high)) = (interval.low, interval.high) {
-        let extreme = rates.iter().all(|&r| r == 0.0) || rates.iter().all(|&r| r == 1.0);
+        let finite = || rates.iter().filter(|r| r.is_finite());
+        let extreme = finite().all(|&r| r == 0.0) || finite().all(|&r| r == 1.0);
         let slack =
             if extreme && trials > 0 { -(level.upper_tail().ln() / trials as f64).exp_m1() } else { 0.0 };
         interval.low = Some((low - slack).clamp(0.0, 1.0));

@@ -20,14 +20,21 @@ pub struct Slope {
 ///
 /// Only replicates with every level take part, so that all are fitted over the same range; a level where one
 /// of them has an error ≤ 0 (below the reference's noise) is left out for all, because dropping single values
-/// would favour large errors. `None` with fewer than two levels or without such a replicate.
+/// would favour large errors. What the reference contributes is carried along its gradient, h/error with h the weight of
+/// a level in the fit. `None` with fewer than two levels or without such a replicate.
 #[must_use]
 pub fn slope(levels: &Levels, level: Level) -> Option<Slope> {
-    slope_between(levels, level, 0.0, f64::INFINITY)
+    Some(slope_between(levels, level, 0.0, f64::INFINITY)?.slope)
+}
+
+/// A slope with its derivative by the mean error of each level.
+pub(crate) struct Fit {
+    pub(crate) slope: Slope,
+    pub(crate) gradient: Vec<f64>,
 }
 
 /// [`slope`] over the levels with `low` ≤ spp ≤ `high`.
-pub(crate) fn slope_between(levels: &Levels, level: Level, low: f64, high: f64) -> Option<Slope> {
+pub(crate) fn slope_between(levels: &Levels, level: Level, low: f64, high: f64) -> Option<Fit> {
     let replicates = levels.complete_replicates();
     let used: Vec<usize> = usable_levels(levels, &replicates)
         .into_iter()
@@ -41,8 +48,17 @@ pub(crate) fn slope_between(levels: &Levels, level: Level, low: f64, high: f64) 
             least_squares_slope(&x, &y?)
         })
         .collect();
-    let interval = replicate_interval(&per_replicate, 0.0, level)?;
-    Some(Slope { interval, per_replicate, spp: used.iter().map(|&l| levels.spp()[l]).collect() })
+    let (mx, n) = (x.iter().sum::<f64>() / x.len() as f64, replicates.len() as f64);
+    let sxx: f64 = x.iter().map(|x| (x - mx).powi(2)).sum();
+    let mut gradient = vec![0.0; levels.len()];
+    for (&l, x) in used.iter().zip(&x) {
+        let error = replicates.iter().filter_map(|&r| levels.at(l, r)).sum::<f64>() / n;
+        gradient[l] = (x - mx) / (sxx * error); // both positive, or there is no slope
+    }
+    let common = levels.combined(&gradient).standard_error;
+    let interval = replicate_interval(&per_replicate, common, level)?;
+    let slope = Slope { interval, per_replicate, spp: used.iter().map(|&l| levels.spp()[l]).collect() };
+    Some(Fit { slope, gradient })
 }
 
 /// Levels where every one of these replicates has a positive error.

@@ -16,6 +16,8 @@ pub fn t_quantile(level: Level, degrees: u64) -> f64 {
     let t = StudentsT::new(0.0, 1.0, degrees).expect("location 0, scale 1, at least one degree of freedom");
     let tail = level.upper_tail();
     let start = t.inverse_cdf(1.0 - tail);
+    // 1 − tail is 1 in floating point for the smallest tails.
+    let start = if start.is_finite() { start } else { -t.inverse_cdf(tail) };
     refine(start, tail, |x| t.sf(x), |x| statrs::distribution::Continuous::pdf(&t, x))
 }
 
@@ -25,15 +27,23 @@ pub fn normal_quantile(level: Level) -> f64 {
     let normal = Normal::standard();
     let tail = level.upper_tail();
     let start = normal.inverse_cdf(1.0 - tail);
+    let start = if start.is_finite() { start } else { -normal.inverse_cdf(tail) };
     refine(start, tail, |x| normal.sf(x), |x| statrs::distribution::Continuous::pdf(&normal, x))
 }
 
 /// Probability that Student's t with `degrees` ≥ 1 degrees of freedom exceeds `statistic` in absolute value;
-/// 0 for an infinite one.
+/// 0 for an infinite one, 1 for one that is not a number, which says nothing. Above a million degrees of freedom as the
+/// normal distribution.
 #[must_use]
 pub fn t_two_sided_p(statistic: f64, degrees: u64) -> f64 {
+    if statistic.is_nan() {
+        return 1.0;
+    }
     if statistic.is_infinite() {
         return 0.0;
+    }
+    if degrees > 1_000_000 {
+        return (2.0 * Normal::standard().sf(statistic.abs())).min(1.0);
     }
     let t = StudentsT::new(0.0, 1.0, degrees.max(1) as f64)
         .expect("location 0, scale 1, at least one degree of freedom");
@@ -122,6 +132,7 @@ mod tests {
         }
         assert_eq!(t_two_sided_p(0.0, 5), 1.0);
         assert_eq!(t_two_sided_p(f64::NEG_INFINITY, 5), 0.0);
+        assert_eq!(t_two_sided_p(f64::NAN, 3), 1.0, "nothing is known");
     }
 
     #[test]

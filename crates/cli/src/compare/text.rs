@@ -22,6 +22,9 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
     for metric in METRICS {
         let cell = |one: &Compared<'_>| match one.measured.values.get(metric.id).copied().flatten() {
             None => "not finite".to_owned(),
+            Some(_) if one.upper_limits().contains_key(metric.id) => {
+                format!("< {}", number(one.upper_limits()[metric.id]))
+            }
             Some(value) => {
                 let unit = if metric.unit.is_empty() { String::new() } else { format!(" {}", metric.unit) };
                 let error = one.measured.reference_se.get(metric.id);
@@ -35,6 +38,10 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
     let pixels = |metric: &'static str| {
         move |one: &Compared<'_>| format!("{} of {}", one.pixels(metric), one.image.pixels())
     };
+    for metric in METRICS.iter().filter(|m| all.iter().any(|one| one.bias().contains_key(m.id))) {
+        let cell = |one: &Compared<'_>| one.bias().get(metric.id).map_or("–".into(), |bias| number(*bias));
+        rows.push(row(&format!("  bias of {}", metric.id), all, cell, ""));
+    }
     rows.push(row("pixels", all, pixels(METRICS[0].id), ""));
     rows.push(row("  of relmse_trimmed", all, pixels("relmse_trimmed"), ""));
     out.push_str(&aligned(&rows));
@@ -42,11 +49,14 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
     if all.iter().any(|one| !one.measured.reference_se.is_empty()) {
         out.push_str("± is the standard error that the reference's own noise contributes\n");
     }
-    for (metric, bias) in measurer.bias() {
+    if all.iter().any(|one| !one.bias().is_empty()) {
         out.push_str(&format!(
-            "bias of {metric} by the reference's noise, relative to it: {}\n",
-            number(bias)
+            "the reference's noise biases relative errors; taken out: the above, by a {}\n",
+            measurer.bias_correction()
         ));
+    }
+    if all.iter().any(|one| !one.upper_limits().is_empty()) {
+        out.push_str("< is an upper limit: the reference is so noisy that what is left of the bias is in doubt\n");
     }
     for map in all.iter().filter_map(|one| one.map.as_ref()) {
         out.push_str(&format!("wrote {}: {}\n", map.path.display(), map.note()));

@@ -3,8 +3,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use noisefloor_stats::{MonteCarloFit, equal_error_multiplier, monte_carlo_constant};
 
 use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, mean, median, metric, told, value};
-use crate::analysis::series::{error_ratio, reference_se, series};
+use crate::analysis::number::{LEVEL, bias, mean, median, metric, told, value};
+use crate::analysis::series::{error_ratio, reference_share, series};
 use crate::context::{Row, SceneContext};
 use crate::record::Record;
 use crate::source::fresh_maps;
@@ -80,6 +80,7 @@ impl Cell<'_> {
             label: self.row.summary.label.clone(),
             metrics: self.means(None),
             ratio_to_mc: self.ratios(None),
+            reference_bias: self.reference_bias(),
             classes: classes.iter().map(|c| ((*c).clone(), self.means(Some(c)))).collect(),
             class_ratio_to_mc: classes
                 .iter()
@@ -113,6 +114,12 @@ impl Cell<'_> {
             .collect()
     }
 
+    fn reference_bias(&self) -> BTreeMap<String, f64> {
+        let ids = self.index.study.metrics.iter();
+        let of = |id: &String| Some((id.clone(), bias(self.records, None, id).filter(|bias| *bias != 0.0)?));
+        ids.filter_map(of).collect()
+    }
+
     /// Ratios of errors to the baseline's on the same frames; none for scores, nor where a corrected error is not
     /// positive.
     fn ratios(&self, class: Option<&str>) -> BTreeMap<String, Interval> {
@@ -139,10 +146,10 @@ impl Cell<'_> {
         fits.iter()
             .filter_map(|(id, fit)| {
                 let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, id)).collect();
-                let reference = reference_se(self.records, id);
+                let reference = reference_share(self.records, None, id);
                 let spent = self.records.first().and_then(|r| r.frame_spp).unwrap_or(self.spp);
                 let (spp, top) = (f64::from(spent), f64::from(top));
-                let multiplier = equal_error_multiplier(fit, spp, &errors, reference, top, LEVEL)?;
+                let multiplier = equal_error_multiplier(fit, spp, &errors, &reference, top, LEVEL)?;
                 let interval = told(multiplier.interval, Source::Replicates, None);
                 Some((id.clone(), (interval, multiplier.extrapolated)))
             })

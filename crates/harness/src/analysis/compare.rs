@@ -2,7 +2,7 @@ use noisefloor_stats::{self as stats, Direction, compare};
 
 use crate::analysis::index::Index;
 use crate::analysis::number::{LEVEL, told};
-use crate::analysis::series::{by_replicate, reference_se};
+use crate::analysis::series::{by_replicate, reference_share};
 use crate::context::SceneContext;
 use crate::study::Family;
 use crate::summary::{Comparison, PairResult, Source};
@@ -30,17 +30,14 @@ fn one(index: &Index<'_>, scene: &SceneContext, spp: u32, metric: &str) -> Optio
         if of_row.iter().any(Option::is_some) {
             labels.push(row.summary.label.clone());
             values.push(of_row);
-            noise.push(reference_se(records, metric));
+            noise.push(reference_share(records, None, metric));
         }
     }
     if labels.len() < 2 {
         return None;
     }
-    let rows: Vec<stats::Row<'_>> = values
-        .iter()
-        .zip(&noise)
-        .map(|(values, &reference_se)| stats::Row { values, reference_se })
-        .collect();
+    let rows: Vec<stats::Row<'_>> =
+        values.iter().zip(&noise).map(|(values, reference)| stats::Row { values, reference }).collect();
     let direction = if crate::metric::lower_is_better(metric) {
         Direction::LowerIsBetter
     } else {

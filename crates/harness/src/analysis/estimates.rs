@@ -1,10 +1,10 @@
 use std::collections::BTreeSet;
 
-use noisefloor_stats::{self as stats, paired_effect, replicate_interval};
+use noisefloor_stats::{self as stats, ReferenceShare, paired_effect, replicate_interval};
 
 use crate::analysis::index::Index;
 use crate::analysis::number::{LEVEL, told};
-use crate::analysis::series::reference_se;
+use crate::analysis::series::reference_share;
 use crate::measure::ALL;
 use crate::record::{EstimateCheck, EstimateMeans, Record};
 use crate::summary::{EstimateBin, EstimateSummary, Interval, Source};
@@ -40,10 +40,17 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
     let found: Vec<_> = records.iter().filter_map(|record| means(record, class)).collect();
     let estimated: Vec<f64> = found.iter().map(|(_, m)| m.estimated).collect();
     let measured: Vec<f64> = found.iter().map(|(_, m)| m.measured).collect();
-    // What the reference contributes is known over all pixels only.
-    let reference = if class == ALL { reference_se(records, "mse") } else { 0.0 };
+    // What was measured over the same pixels; the estimate itself knows nothing of the reference.
+    let share = reference_share(records, (class != ALL).then_some(class), "mse");
+    let reference = share.standard_error;
     let some = |values: &[f64]| values.iter().copied().map(Some).collect::<Vec<_>>();
-    let effect = paired_effect(&some(&estimated), &some(&measured), [0.0, reference], true, LEVEL)?;
+    let effect = paired_effect(
+        &some(&estimated),
+        &some(&measured),
+        [&ReferenceShare::default(), &share],
+        true,
+        LEVEL,
+    )?;
     let within = match found.as_slice() {
         [(check, _)] if class == ALL && effect.is_ratio => check.within_se,
         _ => None,

@@ -1,4 +1,4 @@
-use noisefloor_stats::{paired_ratio, replicate_interval};
+use noisefloor_stats::{ReferenceShare, paired_ratio, replicate_interval};
 
 use crate::analysis::index::Index;
 use crate::analysis::number::{LEVEL, mean, told};
@@ -53,6 +53,25 @@ fn corrected(found: &[&Flicker], of: fn(&OverTime) -> Corrected) -> Option<Inter
     Some(out)
 }
 
+/// What the references contribute to two rows: influences whose products are the variances and the covariance.
+fn shares(own: &[&Flicker], other: &[&Flicker]) -> [ReferenceShare; 2] {
+    let se = |found: &[&Flicker]| mean(found.iter().map(|f| f.found.variance.reference_se)).unwrap_or(0.0);
+    let (a, b) = (se(own), se(other));
+    let covariance = mean(own.iter().filter_map(|f| f.found.covariance));
+    match covariance {
+        Some(covariance) if a > 0.0 && b > 0.0 => {
+            let along = (covariance / b).clamp(-a, a);
+            let parts = |parts: [f64; 2], standard_error| ReferenceShare {
+                standard_error,
+                parts: parts.to_vec(),
+                product: 0.0,
+            };
+            [parts([along, (a * a - along * along).max(0.0).sqrt()], a), parts([b, 0.0], b)]
+        }
+        _ => [a.into(), b.into()],
+    }
+}
+
 /// Ratio of the variances of two rows, paired over replicates.
 fn ratio(own: &[&Flicker], other: &[&Flicker]) -> Option<Interval> {
     let by_replicate = |found: &[&Flicker]| {
@@ -61,8 +80,7 @@ fn ratio(own: &[&Flicker], other: &[&Flicker]) -> Option<Interval> {
         found.iter().for_each(|f| out[f.replicate as usize] = Some(f.found.variance.value));
         out
     };
-    let common = [own, other].map(|found| mean(found.iter().map(|f| f.found.variance.reference_se)));
-    let common = common.map(|se| se.unwrap_or(0.0));
-    let effect = paired_ratio(&by_replicate(own), &by_replicate(other), common, LEVEL)?;
+    let [own_share, other_share] = shares(own, other);
+    let effect = paired_ratio(&by_replicate(own), &by_replicate(other), [&own_share, &other_share], LEVEL)?;
     Some(told(effect.interval, Source::Replicates, None))
 }

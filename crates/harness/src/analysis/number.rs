@@ -1,7 +1,9 @@
 //! Numbers with their uncertainty, from the values of replicates.
 
+use noisefloor_metrics::Contribution;
 use noisefloor_stats::{self as stats, Level, replicate_interval};
 
+use crate::analysis::series::reference_share;
 use crate::record::Record;
 use crate::summary::{Interval, Source};
 
@@ -40,29 +42,37 @@ pub(super) fn metric(
     floor: Option<f64>,
 ) -> Option<Interval> {
     let values: Vec<f64> = records.iter().filter_map(|r| value(r, class, metric)).collect();
-    // The reference is common to all replicates; what it contributes was measured over all pixels only.
-    let common = match class {
-        None => mean(records.iter().filter_map(|r| r.metrics_reference_se.get(metric).copied())),
-        Some(_) => None,
-    };
+    // The reference is common to all replicates.
+    let common = reference_share(records, class, metric).standard_error;
     let within = records.first().and_then(|r| r.metrics_within_se.get(metric)).filter(|_| class.is_none());
     let (interval, source) = match (values.as_slice(), within) {
         ([value], Some(within)) => {
-            let se = within.hypot(common.unwrap_or(0.0));
+            let se = within.hypot(common);
             (stats::Interval::symmetric(*value, se, LEVEL, None, 1), Source::WithinImage)
         }
-        _ => (replicate_interval(&values, common.unwrap_or(0.0), LEVEL)?, Source::Replicates),
+        _ => (replicate_interval(&values, common, LEVEL)?, Source::Replicates),
     };
     let info = crate::metric::info(metric)?;
     // Only errors that the reference's noise was taken out of can fall to where the reference shows nothing.
     let corrected = info.lower_is_better && info.reference_noise_removed;
-    let below = corrected.then(|| interval.below(floor.unwrap_or(0.0))).flatten();
+    let hidden = || interval.below(floor.unwrap_or(0.0));
+    let doubtful = || {
+        let bias = bias(records, class, metric)?;
+        let noise = mean(records.iter().filter_map(|r| Some(r.contribution(class, metric)?.noise)))?;
+        Contribution { bias, noise, ..Contribution::default() }.upper_limit(interval.value, interval.high)
+    };
+    let below = if corrected { doubtful().or_else(hidden) } else { None };
     let mut out = told(interval, source, below);
     if info.lower_is_better {
         // An error is not negative, whatever its corrected estimate.
         out.low = out.low.map(|low| low.max(0.0));
     }
     Some(out)
+}
+
+/// Bias by the reference that was taken out of a metric, mean over replicates; `None` where none is stated.
+pub(super) fn bias(records: &[&Record], class: Option<&str>, metric: &str) -> Option<f64> {
+    mean(records.iter().filter_map(|record| Some(record.contribution(class, metric)?.bias)))
 }
 
 /// Rate over replicates, from the counts of each: hits and trials. With one replicate, its interval within the image.

@@ -1,7 +1,7 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::analysis::index::Index;
-use crate::analysis::number::median;
+use crate::analysis::number::{bias, mean, median, value};
 use crate::context::SceneContext;
 use crate::record::Record;
 use crate::store::Layout;
@@ -65,7 +65,7 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
         height: scene.height as u32,
         replicates: scene.replicates.clone(),
         settings: scene.settings.clone(),
-        reference: reference(scene),
+        reference: reference(scene, &mine().collect::<Vec<_>>()),
         classes: scene.classes.iter().filter(|(_, pixels)| *pixels > 0).cloned().collect(),
         reference_image: Some(Layout::reference(&scene.id))
             .filter(|path| !scene.damaged.contains(path))
@@ -76,7 +76,25 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
     }
 }
 
-fn reference(scene: &SceneContext) -> ReferenceSummary {
+/// Metric id to the largest bias that was taken out of a mean over replicates, relative to that mean.
+fn largest_bias(records: &[&Record]) -> BTreeMap<String, f64> {
+    let mut cells: BTreeMap<(u32, &str), Vec<&Record>> = BTreeMap::new();
+    for record in records {
+        cells.entry((record.spp, &record.label)).or_default().push(record);
+    }
+    let ids: BTreeSet<&String> = records.iter().flat_map(|record| record.reference.keys()).collect();
+    let of = |id: &str| {
+        let relative = cells.values().filter_map(|cell| {
+            let value = mean(cell.iter().filter_map(|record| value(record, None, id)))?;
+            let bias = bias(cell, None, id)?;
+            (value > 0.0).then(|| (bias / value).abs())
+        });
+        relative.reduce(f64::max).filter(|largest| *largest > 0.0)
+    };
+    ids.into_iter().filter_map(|id| Some((id.clone(), of(id)?))).collect()
+}
+
+fn reference(scene: &SceneContext, records: &[&Record]) -> ReferenceSummary {
     let top = scene.replicates.keys().copied().max().unwrap_or(1);
     let ratio = reference_ratio(scene, top);
     ReferenceSummary {
@@ -88,6 +106,6 @@ fn reference(scene: &SceneContext) -> ReferenceSummary {
         ratio_to_top: if ratio.is_finite() { ratio } else { 0.0 },
         long_enough: ratio >= LONG_ENOUGH,
         floor: scene.reference.floor.clone(),
-        bias: scene.reference.bias.clone(),
+        bias: largest_bias(records),
     }
 }

@@ -1,9 +1,9 @@
 //! Values of a metric over replicates and levels, in the form that comparisons and fits take.
 
-use noisefloor_stats::{self as stats, Levels, paired_ratio};
+use noisefloor_stats::{self as stats, Levels, ReferenceShare, paired_ratio};
 
 use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, mean, told, value};
+use crate::analysis::number::{LEVEL, told, value};
 use crate::context::SceneContext;
 use crate::record::Record;
 use crate::summary::{Interval, Source};
@@ -18,9 +18,29 @@ pub(super) fn by_replicate(records: &[&Record], class: Option<&str>, metric: &st
     out
 }
 
-/// Standard error that the reference contributes to every replicate; 0 where none is stated.
-pub(super) fn reference_se(records: &[&Record], metric: &str) -> f64 {
-    mean(records.iter().filter_map(|r| r.metrics_reference_se.get(metric).copied())).unwrap_or(0.0)
+/// What the reference contributes to the mean over replicates; nothing where none is stated.
+pub(super) fn reference_share(records: &[&Record], class: Option<&str>, metric: &str) -> ReferenceShare {
+    let shares: Vec<ReferenceShare> =
+        records.iter().filter_map(|record| share(record, class, metric)).collect();
+    ReferenceShare::mean(&shares).unwrap_or_default()
+}
+
+fn share(record: &Record, class: Option<&str>, metric: &str) -> Option<ReferenceShare> {
+    // The root moves with the squared error.
+    let (source, factor) = match metric {
+        "rmse" => ("mse", 0.5 / value(record, class, metric)?),
+        _ => (metric, 1.0),
+    };
+    let influence = record.contribution(class, source).filter(|found| !found.parts.is_empty());
+    let stated = record.metrics_reference_se.get(metric).copied().filter(|_| class.is_none());
+    let derived = || influence.and_then(|found| found.variance()).map(|v| v.sqrt() * factor);
+    let standard_error = stated.or_else(derived).filter(|se| se.is_finite())?;
+    let parts = influence.filter(|_| factor.is_finite());
+    Some(ReferenceShare {
+        standard_error,
+        parts: parts.map_or(Vec::new(), |found| found.parts.iter().map(|l| l * factor).collect()),
+        product: parts.map_or(0.0, |found| found.product * factor),
+    })
 }
 
 /// Errors of a row over all levels of a scene.
@@ -28,7 +48,8 @@ pub(super) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metri
     let mut levels = Levels::new();
     for &spp in scene.replicates.keys() {
         let records = index.records(scene, spp, label);
-        levels.push(f64::from(spp), &by_replicate(records, None, metric), reference_se(records, metric));
+        let share = reference_share(records, None, metric);
+        levels.push(f64::from(spp), &by_replicate(records, None, metric), share);
     }
     levels
 }
@@ -43,12 +64,9 @@ pub(super) fn error_ratio(
     metric: &str,
     within: Option<f64>,
 ) -> Option<Interval> {
-    let common = match class {
-        None => [reference_se(own, metric), reference_se(other, metric)],
-        Some(_) => [0.0; 2],
-    };
+    let common = [own, other].map(|records| reference_share(records, class, metric));
     let (a, b) = (by_replicate(own, class, metric), by_replicate(other, class, metric));
-    let effect = paired_ratio(&a, &b, common, LEVEL)?;
+    let effect = paired_ratio(&a, &b, [&common[0], &common[1]], LEVEL)?;
     match within {
         Some(se) if effect.interval.low.is_none() => {
             let log = stats::Interval::symmetric(effect.interval.value.ln(), se, LEVEL, None, 1);

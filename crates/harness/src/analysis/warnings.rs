@@ -53,9 +53,6 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
     for scene in index.scenes() {
         of_scene(index, scene, summary, &mut out);
     }
-    if summary.environment.profile == "debug" {
-        out.push("times are of a debug build and say nothing about the methods".into());
-    }
     out
 }
 
@@ -106,12 +103,6 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     if invalid > 0 {
         out.push(format!(
             "{id}: up to {invalid} input pixels per level were not finite and are in no number"
-        ));
-    }
-    for cell in cells().filter(|cell| cell.non_finite_output > 0) {
-        out.push(format!(
-            "{} on {id} at {} spp gave {} values that are not finite; their pixels are left out",
-            cell.label, cell.spp, cell.non_finite_output
         ));
     }
     for (metric, fit) in monte_carlo(index, scene) {

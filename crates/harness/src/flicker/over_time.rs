@@ -4,6 +4,9 @@
 //! is d_t − ρ_t. Its unbiased variance over T frames has the expectation S² + v, S² that of d_t, and given d_t the
 //! references spread it, for normal noise, by (4·S²·v + 2·v²)/(T−1); the mean square by (4·D²·v + 2·v²)/T, D² the mean
 //! of d_t². Both are estimated without bias by putting the measured number less v in the place of S² and D².
+//!
+//! Two outputs a and b against the same references share their noise: its parts in the two variances have the covariance
+//! (4·S_ab·v + 2·v²)/(T−1), S_ab the covariance of d_t^a and d_t^b over the frames, estimated in the same way.
 
 use noisefloor_frame::{Image, Reference, Variance};
 
@@ -16,6 +19,8 @@ pub(crate) struct OverTime {
     pub(crate) squared_error: Corrected,
     /// The references' variance, if all state it.
     pub(crate) reference_variance: Option<f64>,
+    /// Covariance of what the references contribute to `variance` and to that of the output it was compared beside.
+    pub(crate) covariance: Option<f64>,
 }
 
 /// A mean that the references' noise was taken out of.
@@ -72,43 +77,62 @@ impl Truth {
 
     /// Compares one output per frame with the references. `None` if no pixel is finite in all of them, if their sizes
     /// differ, or with fewer than 2 frames.
+    ///
+    /// With each output comes that of another row for the same frame, or `None`.
     pub(super) fn over_time<E>(
         &self,
-        outputs: impl Iterator<Item = Result<Image, E>>,
+        outputs: impl Iterator<Item = Result<(Image, Option<Image>), E>>,
     ) -> Result<Option<OverTime>, E> {
         let size = self.means.first().map_or(0, |mean| mean.data().len());
         let mut valid = self.valid.clone();
         // Welford's update: mean and centred squares of each pixel's and channel's error.
         let (mut mean, mut centred) = (vec![0.0f64; size], vec![0.0f64; size]);
+        // The same for the other row, with the product of both.
+        let mut other = Some((vec![0.0f64; size], vec![0.0f64; size]));
         let mut frames = 0.0f64;
         for (output, reference) in outputs.zip(&self.means) {
-            let output = output?;
+            let (output, beside) = output?;
             if !output.same_shape(reference) || reference.data().len() != size {
                 return Ok(None);
             }
             frames += 1.0;
             exclude(&mut valid, &output);
+            let beside = beside.filter(|beside| beside.same_shape(reference));
+            other = other.filter(|_| beside.is_some());
             for (i, (&x, &r)) in output.data().iter().zip(reference.data()).enumerate() {
                 let error = f64::from(x) - f64::from(r);
                 let step = error - mean[i];
                 mean[i] += step / frames; // at least 1
                 centred[i] += step * (error - mean[i]);
+                if let (Some((mean_beside, product)), Some(beside)) = (&mut other, &beside) {
+                    let off = f64::from(beside.data()[i]) - f64::from(r);
+                    product[i] += step * (off - mean_beside[i]) * (frames - 1.0) / frames;
+                    mean_beside[i] += (off - mean_beside[i]) / frames;
+                }
             }
         }
         if frames < 2.0 || !valid.contains(&true) {
             return Ok(None);
         }
         let (mut variance, mut squared) = (Sums::over(frames - 1.0), Sums::over(frames));
-        let mut noise = 0.0;
+        let (mut noise, mut common) = (0.0, 0.0);
         let pixels = valid.len(); // not 0, or no pixel were valid
         for i in (0..size).filter(|i| valid[i % pixels]) {
             let v = self.noise.as_ref().map_or(0.0, |noise| noise[i]);
             variance.add(centred[i] / (frames - 1.0), v);
             squared.add(centred[i] / frames + mean[i] * mean[i], v);
             noise += v;
+            if let Some((_, product)) = &other {
+                // A pixel that is not finite in the other row takes part in no product.
+                let covariance = product[i] / (frames - 1.0) - v;
+                let term = (4.0 * covariance * v + 2.0 * v * v) / (frames - 1.0);
+                common += if term.is_finite() { term } else { 0.0 };
+            }
         }
         Ok(Some(OverTime {
             reference_variance: self.noise.as_ref().map(|_| noise / variance.count),
+            // Channels that err alike, as for the standard errors.
+            covariance: other.map(|_| 3.0 * common / variance.count.powi(2)),
             variance: variance.mean(),
             squared_error: squared.mean(),
         }))
@@ -205,7 +229,45 @@ mod tests {
     }
 
     fn over_time(truth: &Truth, outputs: &[Image]) -> Option<OverTime> {
-        truth.over_time(outputs.iter().cloned().map(Ok::<_, Infallible>)).unwrap()
+        truth.over_time(outputs.iter().cloned().map(|image| Ok::<_, Infallible>((image, None)))).unwrap()
+    }
+
+    fn beside(truth: &Truth, outputs: &[Image], others: &[Image]) -> OverTime {
+        let pairs = outputs.iter().cloned().zip(others.iter().cloned().map(Some));
+        truth.over_time(pairs.map(Ok::<_, Infallible>)).unwrap().unwrap()
+    }
+
+    #[test]
+    fn what_the_references_contribute_to_two_rows_is_common_as_predicted() {
+        // One row errs by the negative of the other: what the references add moves them against each other.
+        let row = |sign: f32| -> Vec<Image> {
+            let of = |f: u64| {
+                let error = noisy(0.0, 0.3, [2, 0, f], false);
+                error.map(|e| f as f32 + sign * e)
+            };
+            (0..FRAMES as u64).map(of).collect()
+        };
+        let (a, b) = (row(1.0), row(-1.0));
+        let (mut pairs, mut told) = (Vec::new(), 0.0);
+        let draws = 300;
+        for draw in 0..draws {
+            let truth = references(0.2, draw, false, true);
+            let (one, other) = (beside(&truth, &a, &b), over_time(&truth, &b).unwrap());
+            told += one.covariance.unwrap() / draws as f64;
+            pairs.push((one.variance.value, other.variance.value));
+            let itself = beside(&truth, &a, &a);
+            let se = itself.variance.reference_se;
+            assert!((itself.covariance.unwrap() / (se * se) - 1.0).abs() < 1e-9);
+        }
+        let n = draws as f64;
+        let mean = |of: &dyn Fn(&(f64, f64)) -> f64| pairs.iter().map(of).sum::<f64>() / n;
+        let (ma, mb) = (mean(&|p| p.0), mean(&|p| p.1));
+        let found = mean(&|p| (p.0 - ma) * (p.1 - mb)) * n / (n - 1.0);
+        let (va, vb) = (mean(&|p| (p.0 - ma).powi(2)), mean(&|p| (p.1 - mb).powi(2)));
+        // A covariance over n draws is good to √((va·vb + cov²)/n).
+        let spread = ((va * vb + found * found) / n).sqrt();
+        assert!((told - found).abs() < 4.0 * spread, "{told} told, {found} found, good to {spread}");
+        assert!(told < -4.0 * spread, "the two move against each other: {told}");
     }
 
     #[test]

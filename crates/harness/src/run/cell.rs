@@ -134,6 +134,8 @@ impl Runner<'_> {
             outcome: Outcome::Done,
             metrics: BTreeMap::new(),
             metrics_reference_se: BTreeMap::new(),
+            reference: BTreeMap::new(),
+            class_reference: BTreeMap::new(),
             metrics_within_se: BTreeMap::new(),
             ratio_within_se: BTreeMap::new(),
             pixels: 0,
@@ -257,10 +259,7 @@ impl Cell<'_> {
             }
             measured => measured.map_err(metric)?,
         };
-        record.metrics = measured.values;
-        (record.pixels, record.pixels_of) = (measured.pixels as u64, measured.pixels_of as u64);
-        record.classes = measured.classes;
-        record.metrics_reference_se = measured.reference_se;
+        record.take(measured);
         if scene.single() {
             record.metrics_within_se =
                 block_bootstrap(self.measurer, &image, BOOTSTRAP_IMAGES, bootstrap_seed(record))

@@ -51,6 +51,14 @@ pub(super) fn damaged_files(layout: &Layout, scene: &Scene) -> Vec<String> {
     }
 }
 
+/// How the reference's noise is taken out, in words.
+fn correction(measurer: &Measurer<'_>) -> String {
+    match measurer.bias_correction() {
+        "" => measurer.correction().into(),
+        bias => format!("{}; bias of relative errors by the denominator: {bias}", measurer.correction()),
+    }
+}
+
 /// Renders or reads the reference, and writes all that describes the scene.
 pub(super) fn truth(
     scene: &Scene,
@@ -58,7 +66,7 @@ pub(super) fn truth(
     layout: &Layout,
     observer: &dyn Observer,
 ) -> Result<(Truth, SceneContext), HarnessError> {
-    let (mut reference, mut findings) = scene.reference(cache, observer)?;
+    let (reference, mut findings) = scene.reference(cache, observer)?;
     findings.extend(scene.findings.iter().cloned());
     let classes = scene.classes(&reference)?;
     let truth = Truth { classes, reference: reference.clone() };
@@ -86,17 +94,15 @@ pub(super) fn truth(
             parts: reference.parts.len() as u32,
             sampling: scene.reference_sampling.clone(),
             exact: reference.squared_error() == SquaredError::Exact,
-            correction: measurer.correction().into(),
+            correction: correction(&measurer),
             floor: measurer.floor(),
-            bias: measurer.bias(),
         },
         measuring: measuring().to_owned(),
         files: Files::new(),
         damaged: BTreeSet::new(),
         findings,
     };
-    // The parts stay in the cache: mean, variance and halves are what metrics are computed from.
-    reference.parts.clear();
+    // With its parts: metrics that are computed again are the run's own.
     let (image, map) = (Layout::reference(&scene.id), Layout::classes(&scene.id));
     noisefloor_io::write_reference(layout.ready(&image)?, &reference)?;
     let indices = truth.classes.to_image(scene.width, scene.height);

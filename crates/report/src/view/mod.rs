@@ -141,9 +141,6 @@ fn warnings(summary: &Summary) -> Vec<String> {
     let found = summary.findings.iter().map(ToString::to_string);
     let mut warnings = merged(&found.chain(summary.warnings.iter().cloned()).collect::<Vec<_>>());
     let environment = &summary.environment;
-    if environment.profile == "debug" {
-        warnings.push("Times were taken with a debug build and say nothing about speed.".into());
-    }
     let busy = environment.load_at_start.filter(|load| *load > 0.5 && environment.logical_cpus > 0);
     if let Some(load) = busy {
         warnings.push(format!(
@@ -151,11 +148,6 @@ fn warnings(summary: &Summary) -> Vec<String> {
             format::significant(load, 2),
             format::plural(environment.logical_cpus as usize, "logical processor"),
         ));
-    }
-    let lost: u64 = summary.cells.iter().map(|c| c.non_finite_output).sum();
-    if lost > 0 {
-        warnings
-            .push(format!("{lost} output values were not finite; their pixels are left out of the metrics."));
     }
     warnings
 }

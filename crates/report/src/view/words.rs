@@ -98,8 +98,13 @@ pub(crate) fn reference(r: &ReferenceSummary) -> Vec<(String, String)> {
             map.iter().map(|(id, v)| format!("{id} {}", format::significant(*v, 2))).collect();
         items.join(" · ")
     };
+    let shares = |map: &BTreeMap<String, f64>| {
+        let items: Vec<String> =
+            map.iter().map(|(id, v)| format!("{id} at most {}", format::percent(*v))).collect();
+        if items.is_empty() { String::new() } else { format!("{} of a value", items.join(" · ")) }
+    };
     add("Floor (its standard error)", figures(&r.floor));
-    add("Bound on the bias of corrected metrics", figures(&r.bias));
+    add("Bias by it, taken out of relative metrics", shares(&r.bias));
     facts
 }
 

@@ -1,0 +1,181 @@
+//! No input of a public function panics, hangs, or turns a missing number into a finding.
+
+use noisefloor_stats::*;
+
+/// Numbers that are easily forgotten.
+const ODD: [f64; 13] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    0.0,
+    -0.0,
+    -1.0,
+    f64::MIN_POSITIVE,
+    5e-324,
+    f64::MAX,
+    f64::MIN,
+    1e-300,
+    0.5,
+    3.0,
+];
+
+/// Picks from the odd numbers and from plain ones, by a counter that visits many combinations.
+struct Picks(u64);
+
+impl Picks {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    fn number(&mut self) -> f64 {
+        match self.next() % 3 {
+            0 => ODD[(self.next() % ODD.len() as u64) as usize],
+            _ => (self.next() % 1000) as f64 / 100.0 + 0.01,
+        }
+    }
+
+    fn values(&mut self) -> Vec<Option<f64>> {
+        let n = self.next() % 6;
+        (0..n).map(|_| if self.next().is_multiple_of(5) { None } else { Some(self.number()) }).collect()
+    }
+
+    fn share(&mut self) -> ReferenceShare {
+        let parts = (0..self.next() % 3 * 2).map(|_| self.number()).collect();
+        ReferenceShare { standard_error: self.number(), parts, product: self.number() }
+    }
+
+    fn level(&mut self) -> Level {
+        let confidence = [1e-300, 1e-17, 0.5, 0.95, 0.999_999, 1.0 - f64::EPSILON / 2.0];
+        let confidence = confidence[(self.next() % 6) as usize];
+        let level = if self.next().is_multiple_of(2) {
+            Level::two_sided(confidence)
+        } else {
+            Level::upper(confidence)
+        };
+        level.unwrap()
+    }
+}
+
+#[test]
+fn quantiles_and_probabilities_exist_for_every_level_and_any_number_of_samples() {
+    let mut picks = Picks(1);
+    for degrees in [0, 1, 2, 3, 30, 1_000_000, 1_000_001, u64::MAX] {
+        for _ in 0..24 {
+            let level = picks.level();
+            assert!(!t_quantile(level, degrees).is_nan(), "{level:?} {degrees}");
+            assert!(!normal_quantile(level).is_nan(), "{level:?}");
+        }
+        for statistic in ODD {
+            let p = t_two_sided_p(statistic, degrees);
+            assert!((0.0..=1.0).contains(&p), "{statistic} {degrees}: {p}");
+        }
+    }
+    for largest in [0, 1, 2, 3, u32::MAX] {
+        let table = TTable::new(picks.level(), largest.min(64));
+        for n in [0, 1, 2, 3, largest, u32::MAX] {
+            assert!(!table.at(n).is_nan());
+        }
+    }
+    assert!(serde_level(r#"{"confidence": 2.0, "sides": "two"}"#).is_err());
+    assert_eq!(serde_level(r#"{"confidence": 0.95, "sides": "two"}"#).unwrap(), Level::TWO_SIDED_95);
+}
+
+fn serde_level(text: &str) -> Result<Level, serde_json::Error> {
+    serde_json::from_str(text)
+}
+
+#[test]
+fn comparisons_and_fits_take_anything_and_missing_numbers_show_nothing() {
+    let mut picks = Picks(2);
+    for _ in 0..4000 {
+        let level = picks.level();
+        let (a, b) = (picks.values(), picks.values());
+        let (share_a, share_b) = (picks.share(), picks.share());
+        let shares = [&share_a, &share_b];
+        let both = a.iter().zip(&b).filter(|(a, b)| {
+            let finite = |v: &Option<f64>| v.is_some_and(f64::is_finite);
+            finite(a) && finite(b)
+        });
+        let usable = both.count();
+        for effect in [
+            paired_effect(&a, &b, shares, true, level),
+            paired_ratio(&a, &b, shares, level),
+            paired_difference(&a, &b, shares, level),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            assert!((0.0..=1.0).contains(&effect.p), "{effect:?}");
+            assert!(effect.interval.n as usize <= usable && (usable > 1 || effect.p == 1.0), "{effect:?}");
+        }
+        let rows = [Row { values: &a, reference: &share_a }, Row { values: &b, reference: &share_b }];
+        for (direction, family) in
+            [(Direction::LowerIsBetter, Family::AllPairs), (Direction::HigherIsBetter, Family::WithBest)]
+        {
+            let found = compare(&rows, direction, family, level);
+            assert!(usable > 1 || found.pairs.iter().all(|pair| !pair.distinguishable), "{found:?}");
+        }
+        let plain: Vec<f64> = a.iter().copied().flatten().collect();
+        let mut levels = Levels::new();
+        for _ in 0..picks.next() % 5 {
+            levels.push(picks.number(), &picks.values(), picks.share());
+        }
+        let _ = (slope(&levels, level), plateau(&levels, level));
+        let _ = (convergence(&levels, 1, level), convergence(&levels, 2, level));
+        if let Some(fit) = monte_carlo_constant(&levels, level) {
+            let (spp, top) = (picks.number(), picks.number());
+            let _ = equal_error_multiplier(&fit, spp, &plain, &share_a, top, level);
+        }
+        if let Some(interval) = replicate_interval(&plain, picks.number(), level) {
+            let _ = (interval.below(picks.number()), interval.excludes(picks.number()), interval.exp());
+        }
+        let _ = (proportion_interval(&plain, picks.next(), level), holm_adjusted(&plain));
+        let points: Vec<(f64, f64)> = plain.iter().map(|&v| (v, picks.number())).collect();
+        let _ = (pareto_front(&points), rate_standard_error(picks.number(), picks.next()));
+        let hits: Vec<bool> = plain.iter().map(|v| *v > 0.5).collect();
+        let _ = clustered_rate(&hits, (picks.next() % 4) as usize);
+        let _ = bound_verdict(&Interval::point(picks.number(), level), picks.number());
+    }
+}
+
+#[test]
+fn counts_over_pixels_take_anything() {
+    let mut picks = Picks(3);
+    for _ in 0..2000 {
+        let pixels = (picks.next() % 4) as usize;
+        let channels = (picks.next() % 4) as usize;
+        let count =
+            if picks.next().is_multiple_of(8) { picks.next() as usize % 7 } else { pixels * channels };
+        let mut plane = || (0..count).map(|_| picks.number() as f32).collect::<Vec<f32>>();
+        let (mean, variance, truth, noise, denoised) = (plane(), plane(), plane(), plane(), plane());
+        let counts: Vec<u32> = (0..pixels).map(|_| (picks.next() % 3) as u32).collect();
+        let level = picks.level();
+        let observed = Observed {
+            mean: &mean,
+            variance: &variance,
+            counts: if picks.next().is_multiple_of(2) {
+                Counts::Uniform(4)
+            } else {
+                Counts::PerPixel(&counts)
+            },
+            pixels,
+            valid: None,
+        };
+        let truth = Truth { mean: &truth, variance: Some(&noise) };
+        let of_pixel: Vec<u8> = (0..pixels).map(|_| picks.next() as u8).collect();
+        let groups = Groups {
+            of_pixel: &of_pixel,
+            count: if picks.next().is_multiple_of(2) { 3 } else { usize::MAX },
+        };
+        let _ = coverage(&observed, &truth, level, Some(groups));
+        if let Ok(widths) = half_widths(&observed, &[(picks.number(), level)]) {
+            let _ = enclosure(&denoised, &widths, &observed);
+            let tallies = bound_violations(&denoised, &widths, &observed, &truth, level, Some(groups));
+            let _ = tallies.map(|all| (all[0].rate(), all[0].mean_ratio()));
+        }
+    }
+}
