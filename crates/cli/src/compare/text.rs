@@ -56,7 +56,9 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
         ));
     }
     if all.iter().any(|one| !one.upper_limits().is_empty()) {
-        out.push_str("< is an upper limit: the reference is so noisy that what is left of the bias is in doubt\n");
+        out.push_str(
+            "< is an upper limit: the reference is so noisy that what is left of the bias is in doubt\n",
+        );
     }
     for map in all.iter().filter_map(|one| one.map.as_ref()) {
         out.push_str(&format!("wrote {}: {}\n", map.path.display(), map.note()));

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use crate::common::{Place, Watch, records, study};
+use noisefloor_frame::FindingKind;
 use noisefloor_harness::record::Outcome;
 use noisefloor_harness::{HarnessError, Study, violations};
 
@@ -64,7 +65,16 @@ fn values_that_are_not_finite_are_counted_and_left_out() {
         // One pixel of 384 is missing, whose squared error is not far from the others'.
         assert!((mc / nan - 1.0).abs() < 0.1, "{mc} {nan}");
     }
-    assert!(summary.warnings.iter().any(|w| w.contains("not finite")), "{:?}", summary.warnings);
+    let of_outputs: Vec<_> =
+        summary.findings.iter().filter(|f| f.kind == FindingKind::NonFiniteOutput).collect();
+    let told: f64 = of_outputs.iter().filter_map(|f| f.value).sum();
+    assert_eq!(told, all.len() as f64 / 2.0, "every output of the row has one: {of_outputs:?}");
+    let cells = summary.cells.iter().filter(|cell| cell.label == "nan").count();
+    assert_eq!(of_outputs.len(), cells, "one record per row and level: {of_outputs:?}");
+    assert!(of_outputs[0].subject.starts_with("nan on steps at "), "{of_outputs:?}");
+    assert!(!summary.warnings.iter().any(|w| w.contains("not finite")), "said once: {:?}", summary.warnings);
+    let builds = summary.findings.iter().filter(|f| f.kind == FindingKind::DebugBuild).count();
+    assert_eq!(builds, usize::from(cfg!(debug_assertions)));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! What the numbers must show where the truth is exact.
 
-use noisefloor_harness::Study;
 use noisefloor_harness::summary::{Source, Summary};
+use noisefloor_harness::{Study, reanalyse};
 
 use crate::common::{Place, Watch, records, study};
 
@@ -170,4 +170,10 @@ fn a_short_reference_is_marked() {
     assert!(marks.iter().all(|(spp, marked)| *marked == (*spp == 8)), "{marks:?}");
     assert!(reference.floor["mse"] > 0.0 && reference.bias["relmse"] > 0.0);
     assert!(summary.cells.iter().all(|cell| cell.reference_bias["relmse"] != 0.0));
+    // The kept reference has its parts: metrics that are computed again are the run's own.
+    let again = reanalyse(&place.out(), true).unwrap();
+    assert_eq!((again.cells, again.scenes), (summary.cells, summary.scenes));
+    let kept = records(&place.out());
+    assert!(kept.iter().all(|record| record.reference["mse"].parts.len() == 8), "one influence per part");
+    assert!(kept.iter().all(|record| !record.class_reference.is_empty()));
 }
