@@ -83,6 +83,9 @@ pub struct Run {
     /// Threads for rendering and denoising [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Most memory that images may take, in GiB [default: what is free, at most 64]
+    #[arg(long, value_name = "GIB", value_parser = crate::memory::parse_gib)]
+    pub max_memory: Option<f64>,
     /// Which photon maps replicates get (scenes only): `fixed`, one pair for all and for the reference, or `fresh`, a
     /// new pair for each and a path-traced reference [default: fixed]
     #[arg(long, value_parser = ["fixed", "fresh"])]
@@ -167,6 +170,9 @@ pub struct Render {
     /// Threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Most memory that images may take, in GiB [default: what is free, at most 64]
+    #[arg(long, value_name = "GIB", value_parser = crate::memory::parse_gib)]
+    pub max_memory: Option<f64>,
     /// No progress
     #[arg(long, short)]
     pub quiet: bool,
@@ -233,6 +239,10 @@ pub struct Denoise {
     /// Threads [default: all]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub threads: Option<u32>,
+    /// Most memory that the decoded frame may take, in GiB [default: 4, and 256 times the size of its file where that is
+    /// more than half a GiB]
+    #[arg(long, value_name = "GIB", value_parser = crate::memory::parse_gib)]
+    pub max_memory: Option<f64>,
     /// Print one JSON object instead of text
     #[arg(long)]
     pub json: bool,

@@ -29,7 +29,8 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     }
     let overrides = overrides(&args.set)?;
     let method = context.registry.build(&args.method, &overrides)?;
-    let options = ReadOptions { spp: args.spp };
+    let max_decoded_bytes = args.max_memory.map(|gib| crate::memory::allowed(Some(gib)));
+    let options = ReadOptions { spp: args.spp, max_decoded_bytes };
     let Checked { frame, hygiene, findings } = input::read(&args.frame, &options, &method.denoiser.card())?;
     if let Some(probe) = args.probe
         && (probe.x >= frame.width() || probe.y >= frame.height())

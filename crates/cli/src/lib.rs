@@ -11,6 +11,7 @@ mod denoise;
 mod exit;
 mod input;
 mod interrupt;
+mod memory;
 mod methods;
 mod out;
 mod output;

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use anyhow::bail;
 use glam::Vec3;
 use noisefloor_denoiser::Need;
-use noisefloor_frame::{FeatureId, PixelFilter, Sampling};
+use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
 use noisefloor_harness::{Maps, Shot};
 use noisefloor_render::{
     FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available, sequence_seed,
@@ -86,6 +86,7 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
         )?;
     }
     let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
+    request.max_memory = crate::memory::allowed(args.max_memory);
     request.seed = sequence_seed(args.seed, shot.frame);
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
@@ -120,11 +121,13 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
             request.sampling = Sampling::LowDiscrepancy;
             let mut reference = noisefloor_render::render_reference(&request, parts, &advance)?;
             reference.frame.provenance.extra.extend(extra);
+            tell_darkness(&reference.frame);
             (reference.frame.provenance.render_seconds, output.reference(&reference)?)
         }
         None => {
             let mut frame = noisefloor_render::render(&request, &advance)?;
             frame.provenance.extra.extend(extra);
+            tell_darkness(&frame);
             (frame.provenance.render_seconds, output.frame(&frame)?)
         }
     };
@@ -136,6 +139,16 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
         written.tell(rate)?;
     }
     Ok(())
+}
+
+/// Notices about what makes a picture dark: no light at all, and samples that count as black.
+fn tell_darkness(frame: &Frame) {
+    if let Some(count) = frame.provenance.extra.get("non_finite_samples") {
+        note!("notice: {count} samples are not finite and count as black");
+    }
+    if frame.color.mean.data().iter().all(|v| *v == 0.0) {
+        note!("notice: the picture is black: no light reaches the camera");
+    }
 }
 
 /// An image as light from infinitely far away.

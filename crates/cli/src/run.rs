@@ -7,7 +7,7 @@ use std::path::Path;
 
 use anyhow::{Context as _, bail};
 use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{Maps, MethodRow, Study, StudyRun};
+use noisefloor_harness::{Maps, MethodRow, Study, StudyRun, memory_estimate};
 use noisefloor_report::ReportFiles;
 
 use crate::args::Run;
@@ -29,13 +29,17 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     });
     check_study(args, kind, &study, &out)?;
     let cache = args.cache.clone().unwrap_or_else(default_cache);
+    let size = args.size.map(|s| (s.width, s.height));
+    if let Some(largest) = memory_estimate(&study, &context.registry, size) {
+        largest.check(crate::memory::allowed(args.max_memory))?;
+    }
     let watcher = Watcher::new(args.quiet);
     let request = StudyRun {
         study: &study,
         registry: &context.registry,
         out_dir: &out,
         cache_dir: &cache,
-        size: args.size.map(|s| (s.width, s.height)),
+        size,
         again: &args.again,
         command: command(args),
         simd: noisefloor_kernels::Level::best().name().to_owned(),

@@ -83,6 +83,7 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<Exit> {
                 Some(_) => Integrator::PhotonMapping,
                 None => Integrator::PathTracing,
             },
+            max_memory: crate::memory::allowed(None),
             ..RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp)
         };
         let start = Instant::now();

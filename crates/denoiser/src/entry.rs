@@ -63,6 +63,16 @@ pub enum BuildError {
         /// The closest names that exist, each with its range.
         nearest: Vec<String>,
     },
+    /// Combinators in combinators, more than are accepted.
+    #[error("method `{id}` is guarded {levels} times; allowed: at most {most}")]
+    Nesting {
+        /// Name given; the beginning of a long one.
+        id: String,
+        /// How deep it goes.
+        levels: usize,
+        /// How deep it may go.
+        most: usize,
+    },
     /// A value of the wrong type or out of range.
     #[error("method `{method}`: parameter `{parameter}` is {value}; allowed: {range}")]
     OutOfRange {
@@ -95,7 +105,7 @@ pub fn params_from<P: Default + Serialize + DeserializeOwned>(
         if !docs.iter().any(|doc| doc.name == name) {
             return Err(BuildError::UnknownParameter {
                 method: method.into(),
-                parameter: name.clone(),
+                parameter: shown(name),
                 nearest: nearest(name, docs.iter().map(|d| d.name))
                     .into_iter()
                     .filter_map(|n| docs.iter().find(|d| d.name == n))
@@ -146,8 +156,21 @@ where
     }
 }
 
+/// The longest name that is compared or shown in full: none that exists comes near.
+const LONGEST_NAME: usize = 100;
+
+/// A name for a message: long ones end in `…`.
+pub(crate) fn shown(name: &str) -> String {
+    match name.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("{}…", &name[..end]),
+        None => name.to_owned(),
+    }
+}
+
 /// The three names closest to `given`, closest first.
 pub(crate) fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    // The time that a comparison takes grows with the product of both lengths.
+    let given = given.char_indices().nth(LONGEST_NAME).map_or(given, |(end, _)| &given[..end]);
     let mut ranked: Vec<(f64, &str)> = names.map(|n| (strsim::jaro_winkler(given, n), n)).collect();
     ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
     ranked.into_iter().take(3).map(|(_, n)| n.to_owned()).collect()

@@ -35,6 +35,22 @@ impl Guarded {
         about: "level of the interval that the output is projected into",
     };
 
+    /// How often a method may be guarded again: once says all, and what asks for thousands is a mistake that would
+    /// fill the stack.
+    pub const MOST_LEVELS: usize = 8;
+
+    /// How many combinators stand before the method in an id, closed or not.
+    #[must_use]
+    pub fn levels(id: &str) -> usize {
+        let mut rest = id;
+        let mut levels = 0;
+        while let Some(inner) = rest.strip_prefix("guarded(") {
+            rest = inner;
+            levels += 1;
+        }
+        levels
+    }
+
     /// Guards `inner` at a two-sided `level`.
     #[must_use]
     pub fn new(inner: Box<dyn Denoiser>, level: Level) -> Self {

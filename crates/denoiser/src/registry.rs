@@ -1,6 +1,7 @@
 use serde_json::{Map, Value};
 
-use crate::{BuildError, Denoiser, Entry, Guarded, entry::nearest};
+use crate::entry::{nearest, shown};
+use crate::{BuildError, Denoiser, Entry, Guarded};
 
 /// A method ready to run, with the parameters that made it.
 pub struct Method {
@@ -49,17 +50,27 @@ impl Registry {
     /// `guard_level`, the rest goes to the inner method.
     ///
     /// # Errors
-    /// [`BuildError`] naming the nearest methods or parameters and the allowed range.
+    /// [`BuildError`] naming the nearest methods or parameters and the allowed range; [`BuildError::Nesting`] for more
+    /// than [`Guarded::MOST_LEVELS`] of them in each other.
     pub fn build(&self, id: &str, overrides: &Map<String, Value>) -> Result<Method, BuildError> {
+        let levels = Guarded::levels(id);
+        if levels > Guarded::MOST_LEVELS {
+            return Err(BuildError::Nesting { id: shown(id), levels, most: Guarded::MOST_LEVELS });
+        }
+        self.build_levels(id, overrides)
+    }
+
+    /// [`Registry::build`] with a limited number of levels.
+    fn build_levels(&self, id: &str, overrides: &Map<String, Value>) -> Result<Method, BuildError> {
         if let Some(inner) = id.strip_prefix("guarded(").and_then(|rest| rest.strip_suffix(')')) {
             let mut rest = overrides.clone();
             let level = rest.remove(Guarded::PARAM.name);
-            let inner = self.build(inner, &rest).map_err(offer_guard_level)?;
+            let inner = self.build_levels(inner, &rest).map_err(offer_guard_level)?;
             return Guarded::from_parts(id, inner, level);
         }
         let Some(entry) = self.entries.iter().find(|e| e.id == id) else {
             let nearest = nearest(id, self.entries.iter().map(|e| e.id));
-            return Err(BuildError::UnknownMethod { id: id.into(), nearest });
+            return Err(BuildError::UnknownMethod { id: shown(id), nearest });
         };
         let denoiser = (entry.build)(overrides)?;
         let mut params = (entry.defaults)();

@@ -266,3 +266,30 @@ fn stages_are_kept_in_order() {
     assert_eq!(stages.iter().map(|s| s.name.as_str()).collect::<Vec<_>>(), ["first", "second"]);
     assert!(stages.iter().all(|s| s.seconds >= 0.0));
 }
+
+#[test]
+fn nesting_beyond_the_limit_is_an_error_at_once() {
+    let registry = Registry::new(&[MC_ENTRY], &[]);
+    let nested = |levels: usize| format!("{}mc{}", "guarded(".repeat(levels), ")".repeat(levels));
+    assert!(registry.build(&nested(Guarded::MOST_LEVELS), &Map::new()).is_ok());
+    for levels in [Guarded::MOST_LEVELS + 1, 2000, 100_000] {
+        for id in [nested(levels), "guarded(".repeat(levels)] {
+            let error = registry.build(&id, &Map::new()).unwrap_err();
+            let BuildError::Nesting { levels: told, most: Guarded::MOST_LEVELS, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!(told, levels);
+            assert!(error.to_string().len() < 300, "{error}");
+        }
+    }
+}
+
+#[test]
+fn names_of_any_length_are_answered_shortly() {
+    let registry = Registry::new(&[MC_ENTRY], &[KNOBS_ENTRY]);
+    let long = "x".repeat(1 << 20);
+    let error = registry.build(&long, &Map::new()).unwrap_err().to_string();
+    assert!(error.len() < 400, "{} characters", error.len());
+    let error = registry.build("knobs", &overrides(json!({ long: 1 }))).unwrap_err().to_string();
+    assert!(error.len() < 800, "{} characters", error.len());
+}

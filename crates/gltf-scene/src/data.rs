@@ -1,26 +1,23 @@
 //! Bytes of buffers, and numbers of accessors with every bound checked before anything is read or allocated.
 
-use std::path::{Path, PathBuf};
-
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 use gltf::accessor::{Accessor, DataType, Dimensions};
 use gltf::buffer::{Source, View};
 
 use crate::GltfError;
+use crate::uri::Fetcher;
 
 /// All buffers of a file.
 pub struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
-    pub fn read(gltf: &mut gltf::Gltf, folder: &Path) -> Result<Self, GltfError> {
+    pub fn read(gltf: &mut gltf::Gltf, files: &mut Fetcher<'_>) -> Result<Self, GltfError> {
         let mut blob = gltf.blob.take();
         let mut all = Vec::new();
         for buffer in gltf.document.buffers() {
             let what = format!("buffer {}", buffer.index());
             let bytes = match buffer.source() {
                 Source::Bin => blob.take().ok_or_else(|| GltfError::data(&what, "has no data"))?,
-                Source::Uri(uri) => fetch(uri, folder, &what)?,
+                Source::Uri(uri) => files.fetch(uri, &what)?,
             };
             if bytes.len() < buffer.length() {
                 let problem = format!("is truncated: {} of {} bytes are there", bytes.len(), buffer.length());
@@ -73,6 +70,7 @@ impl Buffers {
             Dimensions::Scalar => 1,
             Dimensions::Vec2 => 2,
             Dimensions::Vec3 => 3,
+            Dimensions::Vec4 => 4,
             _ => 0,
         };
         if dimensions != components {
@@ -88,6 +86,9 @@ impl Buffers {
             return Err(wrong(accessor, "has elements that overlap"));
         }
         let bytes = self.view(&view)?;
+        if accessor.count() == 0 {
+            return Err(wrong(accessor, "has no elements"));
+        }
         let last = accessor.count().checked_sub(1).and_then(|n| n.checked_mul(stride));
         let end = last.and_then(|l| l.checked_add(accessor.offset())).and_then(|l| l.checked_add(size));
         if end.is_none_or(|end| end > bytes.len()) {
@@ -100,32 +101,4 @@ impl Buffers {
 
 fn wrong(accessor: &Accessor<'_>, problem: &str) -> GltfError {
     GltfError::data(format!("accessor {}", accessor.index()), problem)
-}
-
-/// What a URI stands for: embedded base64, or a regular file beside the scene.
-pub fn fetch(uri: &str, folder: &Path, what: &str) -> Result<Vec<u8>, GltfError> {
-    if let Some(data) = uri.strip_prefix("data:") {
-        let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
-        let encoded = encoded.ok_or_else(|| GltfError::data(what, "has a data URI that is not base64"))?;
-        return STANDARD.decode(encoded).map_err(|e| GltfError::data(what, e.to_string()));
-    }
-    if uri.contains("://") {
-        return Err(GltfError::data(what, "is on the network, but only files are read"));
-    }
-    read_file(&file_of(uri, folder).unwrap_or_default())
-}
-
-/// The file that a URI names; none for embedded data and for the network.
-pub fn file_of(uri: &str, folder: &Path) -> Option<PathBuf> {
-    let embedded = uri.starts_with("data:") || uri.contains("://");
-    (!embedded).then(|| folder.join(uri.replace("%20", " ")))
-}
-
-/// A regular file; a device or a pipe may never end.
-pub fn read_file(path: &Path) -> Result<Vec<u8>, GltfError> {
-    let io = |source| GltfError::Io { path: path.to_owned(), source };
-    if !std::fs::metadata(path).map_err(io)?.is_file() {
-        return Err(io(std::io::Error::other("not a regular file")));
-    }
-    std::fs::read(path).map_err(io)
 }

@@ -4,20 +4,37 @@ use std::collections::BTreeSet;
 
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use gltf::Semantic;
+use gltf::accessor::Dimensions;
 use gltf::mesh::{Mode, Primitive};
 use noisefloor_scenes::Mesh;
 
 use crate::GltfError;
 use crate::data::Buffers;
+use crate::tint::VertexColors;
 
-/// The mesh of a primitive, and how many triangles without an area were dropped.
+/// What a primitive becomes.
+pub struct Shape {
+    pub mesh: Mesh,
+    pub colors: Option<VertexColors>,
+    /// Triangles without an area that were dropped.
+    pub dropped: usize,
+}
+
+/// How many vertices or triangles a primitive has at most, without looking at its data.
+pub fn size(primitive: &Primitive<'_>) -> usize {
+    let count = |a: gltf::Accessor<'_>| a.count();
+    let vertices = primitive.get(&Semantic::Positions).map_or(0, count);
+    vertices.max(primitive.indices().map_or(0, count))
+}
+
+/// The mesh of a primitive.
 pub fn mesh(
     primitive: &Primitive<'_>,
     world: Mat4,
     buffers: &Buffers,
     what: &str,
     notices: &mut BTreeSet<String>,
-) -> Result<Option<(Mesh, usize)>, GltfError> {
+) -> Result<Option<Shape>, GltfError> {
     let mode = primitive.mode();
     if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
         notices.insert("points and lines".into());
@@ -50,6 +67,8 @@ pub fn mesh(
     if let Some(accessor) = primitive.get(&Semantic::TexCoords(0)) {
         mesh.uvs = buffers.floats::<2>(&accessor)?.into_iter().map(Vec2::from).collect();
     }
+    let colors =
+        primitive.get(&Semantic::Colors(0)).map(|accessor| vertex_colors(&accessor, n, what, buffers));
     let indices = match primitive.indices() {
         Some(accessor) => buffers.indices(&accessor)?,
         None => (0..n as u32).collect(),
@@ -69,7 +88,29 @@ pub fn mesh(
             dropped += 1;
         }
     }
-    Ok(Some((mesh, dropped)))
+    Ok(Some(Shape { mesh, colors: colors.transpose()?, dropped }))
+}
+
+/// Linear colours, of which an opacity is left out.
+fn vertex_colors(
+    accessor: &gltf::Accessor<'_>,
+    vertices: usize,
+    what: &str,
+    buffers: &Buffers,
+) -> Result<VertexColors, GltfError> {
+    let colors: Vec<Vec3> = if accessor.dimensions() == Dimensions::Vec4 {
+        buffers.floats::<4>(accessor)?.into_iter().map(|[r, g, b, _]| Vec3::new(r, g, b)).collect()
+    } else {
+        buffers.floats::<3>(accessor)?.into_iter().map(Vec3::from).collect()
+    };
+    if colors.len() != vertices {
+        let problem = format!("{vertices} vertices but {} vertex colours", colors.len());
+        return Err(GltfError::data(what, problem));
+    }
+    if let Some(i) = colors.iter().position(|c| !c.is_finite()) {
+        return Err(GltfError::data(what, format!("the colour of vertex {i} is {}", colors[i])));
+    }
+    Ok(VertexColors::new(colors))
 }
 
 fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 use std::sync::Arc;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use png::{ColorType, Decoder, Transformations};
 
 /// The most pixels an image may have.
@@ -15,6 +15,20 @@ pub struct Decoded {
     pub width: usize,
     pub height: usize,
     pub pixels: Arc<[Vec3]>,
+}
+
+impl Decoded {
+    /// The colour of all pixels, if it is the same.
+    pub fn uniform(&self) -> Option<Vec3> {
+        let first = *self.pixels.first()?;
+        self.pixels.iter().all(|p| *p == first).then_some(first)
+    }
+
+    /// The mean colour.
+    pub fn mean(&self) -> Vec3 {
+        let sum = self.pixels.iter().fold(DVec3::ZERO, |sum, p| sum + p.as_dvec3());
+        (sum / self.pixels.len().max(1) as f64).as_vec3()
+    }
 }
 
 /// Whether the bytes begin as a PNG file does.

@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use glam::{Mat4, Vec3};
@@ -6,9 +6,12 @@ use gltf::camera::Projection;
 use noisefloor_scenes::{CameraSpec, Scene, Sky};
 
 use crate::GltfError;
-use crate::data::{Buffers, file_of, read_file};
-use crate::geometry::mesh;
+use crate::data::Buffers;
+use crate::geometry::{mesh, size};
+use crate::images::Images;
 use crate::material::Materials;
+use crate::parse::{guard, parse};
+use crate::uri::{Fetcher, file_of, read_file};
 
 /// The most triangles or vertices of a scene, instances counted each.
 const MOST_TRIANGLES: usize = 50_000_000;
@@ -30,11 +33,15 @@ pub struct Loaded {
 ///
 /// [`GltfError`] if the file or one that it refers to cannot be read or is not valid, or if there is nothing to see.
 pub fn load(path: &Path) -> Result<Loaded, GltfError> {
+    guard(|| read(path)).map_err(|error| error.of(path))
+}
+
+fn read(path: &Path) -> Result<Loaded, GltfError> {
     let bytes = read_file(path)?;
-    let syntax = |source| GltfError::Syntax { path: path.to_owned(), source };
-    let mut gltf = gltf::Gltf::from_slice(&bytes).map_err(syntax)?;
+    let mut gltf = parse(&bytes, path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    let buffers = Buffers::read(&mut gltf, folder)?;
+    let mut fetcher = Fetcher::new(folder);
+    let buffers = Buffers::read(&mut gltf, &mut fetcher)?;
     let document = &gltf.document;
     let files = std::iter::once(path.to_owned()).chain(named_files(document, folder)).collect();
     let id = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -43,13 +50,12 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
     let mut scene = Scene::empty(id.clone(), id, unset);
     let mut left_out = unsupported(document);
     let mut notices = Vec::new();
-    let mut materials =
-        Materials { buffers: &buffers, folder, made: BTreeMap::new(), images: BTreeMap::new() };
+    let mut materials = Materials::new(Images::new(&buffers, fetcher));
     let mut camera = None;
-    let (mut dropped, mut dark_lamps, mut total) = (0, 0, 0usize);
+    let (mut dropped, mut dark_lamps, mut total, mut shown) = (0, 0, 0usize, 0usize);
     let mut seen = BTreeSet::new();
-    let shown = document.default_scene().or_else(|| document.scenes().next());
-    let mut open: Vec<_> = shown.iter().flat_map(|s| s.nodes()).map(|n| (n, Mat4::IDENTITY)).collect();
+    let first = document.default_scene().or_else(|| document.scenes().next());
+    let mut open: Vec<_> = first.iter().flat_map(|s| s.nodes()).map(|n| (n, Mat4::IDENTITY)).collect();
     open.reverse();
     while let Some((node, parent)) = open.pop() {
         let what = format!("node {}", node.index());
@@ -57,6 +63,9 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
             return Err(GltfError::data(what, "is reached twice, but nodes must form a tree"));
         }
         let world = parent * Mat4::from_cols_array_2d(&node.transform().matrix());
+        if !world.is_finite() {
+            return Err(GltfError::data(what, "has a transformation that is not finite"));
+        }
         if let Some(c) = node.camera() {
             match c.projection() {
                 Projection::Perspective(p) if camera.is_none() => {
@@ -67,27 +76,30 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
             }
         }
         for primitive in node.mesh().iter().flat_map(|m| m.primitives()) {
-            let Some((mesh, lost)) = mesh(&primitive, world, &buffers, &what, &mut left_out)? else {
+            // Before any work, and whether or not something of it is seen: a short file may use a mesh many times.
+            total = total.saturating_add(size(&primitive));
+            if total > MOST_TRIANGLES {
+                return Err(GltfError::TooManyTriangles { path: path.to_owned(), most: MOST_TRIANGLES });
+            }
+            let Some(shape) = mesh(&primitive, world, &buffers, &what, &mut left_out)? else {
                 continue;
             };
-            dropped += lost;
-            let lamp = primitive.material().emissive_factor() != [0.0; 3];
-            if mesh.triangles.is_empty() {
+            dropped += shape.dropped;
+            if shape.mesh.triangles.is_empty() {
+                let lamp = materials.emission(&primitive.material(), &mut left_out)? != Vec3::ZERO;
                 dark_lamps += usize::from(lamp);
                 continue;
             }
-            total += mesh.triangles.len().max(mesh.positions.len());
-            if total > MOST_TRIANGLES {
-                return Err(GltfError::TooManyTriangles { most: MOST_TRIANGLES });
-            }
-            let uvs = !mesh.uvs.is_empty();
-            let index = materials.index(&mut scene, &primitive.material(), uvs, &mut left_out)?;
+            shown += shape.mesh.triangles.len();
+            let material = primitive.material();
+            let mesh = materials.dress(&mut scene, shape.mesh, shape.colors, &material, &mut left_out)?;
+            let index = mesh.material;
             scene.add_mesh(mesh, index);
         }
         let children: Vec<_> = node.children().map(|n| (n, world)).collect();
         open.extend(children.into_iter().rev());
     }
-    if total == 0 {
+    if shown == 0 {
         return Err(GltfError::NoTriangles { path: path.to_owned() });
     }
     if dropped > 0 {
@@ -101,11 +113,11 @@ pub fn load(path: &Path) -> Result<Loaded, GltfError> {
         framing(&scene)
     });
     if !scene.models().area_lights {
-        notices.push("the file has no emissive surface: lit by a constant sky of radiance 1".into());
+        notices.push("nothing in the file shines: lit by a constant sky of radiance 1".into());
         scene.sky = Some(Sky::Constant(Vec3::ONE));
     }
     notices.extend(left_out.into_iter().map(|what| format!("not supported, left out: {what}")));
-    scene.check()?;
+    scene.check().map_err(|source| GltfError::Scene { path: path.to_owned(), source })?;
     Ok(Loaded { scene, notices, files })
 }
 

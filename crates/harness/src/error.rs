@@ -47,13 +47,8 @@ pub enum HarnessError {
         source: UnknownScene,
     },
     /// A glTF file of a study cannot be loaded.
-    #[error("{}: {source}", path.display())]
-    Gltf {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: noisefloor_gltf::GltfError,
-    },
+    #[error(transparent)]
+    Gltf(#[from] noisefloor_gltf::GltfError),
     /// A row names a method or parameter that does not exist.
     #[error("{place}: row `{label}`: {source}")]
     Method {
@@ -71,6 +66,23 @@ pub enum HarnessError {
         name: String,
         /// Labels of the rows.
         rows: Vec<String>,
+    },
+    /// The images of a scene take more memory than is allowed; found before any work.
+    #[error(
+        "scene `{scene}`: frame and reference of {width}×{height} pixels take about {bytes} bytes of memory, allowed are \
+         {allowed}; make the images smaller (`width`, `height`, --size), or raise the limit (--max-memory)"
+    )]
+    Memory {
+        /// Scene id.
+        scene: String,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Bytes that they take.
+        bytes: u64,
+        /// The most that is allowed.
+        allowed: u64,
     },
     /// A folder of frames cannot be used as a scene.
     #[error("{}: {reason}", path.display())]

@@ -84,7 +84,10 @@ fn one_sequence(
     }
     let references = ids.iter().map(|id| {
         // The sample count of a reference plays no part here.
-        read_reference(root.join(Layout::reference(id)), &ReadOptions { spp: Some(1) })
+        read_reference(
+            root.join(Layout::reference(id)),
+            &ReadOptions { spp: Some(1), ..ReadOptions::default() },
+        )
     });
     let truth = Truth::new(references)?;
     // The row that the others are compared with, by level; the order is that of levels and rows.

@@ -40,7 +40,7 @@ impl Plan {
     ) -> Result<Self, HarnessError> {
         let mut fingerprints = Fingerprints::default();
         let rows = rows(study, registry, None, &mut fingerprints)?;
-        let recorded = recorded(&rows);
+        let recorded = recorded(rows.iter().map(|row| &row.card));
         let mut scenes = Vec::new();
         for spec in &study.scenes {
             let mut scene = Scene::open(study, spec, size, &recorded)?;
@@ -160,9 +160,14 @@ fn rows(
                 allowed: "a method that can say where samples are needed".into(),
             });
         }
-        let mut slug = slug(&row.label);
-        while !slugs.insert(slug.clone()) {
-            slug.push('_');
+        let first = slug(&row.label);
+        let mut slug = first.clone();
+        for number in 1.. {
+            if slugs.insert(slug.clone()) {
+                break;
+            }
+            // One more of that name, then numbers: names stay short however many are equal.
+            slug = if number == 1 { format!("{first}_") } else { format!("{first}_{number}") };
         }
         let card = method.denoiser.card();
         let fingerprint = fingerprints.of(&method);
@@ -195,7 +200,7 @@ fn slug(label: &str) -> String {
 }
 
 /// What a renderer should record so that every row has what it needs and may use.
-fn recorded(rows: &[Row]) -> BTreeMap<Quantity, Keep> {
+pub(crate) fn recorded<'a>(cards: impl Iterator<Item = &'a MethodCard>) -> BTreeMap<Quantity, Keep> {
     let mut out = BTreeMap::new();
     let mut add = |quantity: Option<Quantity>, variance: bool, halves: bool| {
         if let Some(quantity) = quantity {
@@ -204,7 +209,7 @@ fn recorded(rows: &[Row]) -> BTreeMap<Quantity, Keep> {
             keep.halves |= halves;
         }
     };
-    for need in rows.iter().flat_map(|row| row.card.needs.iter().chain(&row.card.uses)) {
+    for need in cards.flat_map(|card| card.needs.iter().chain(&card.uses)) {
         match need {
             Need::Feature(id) => add(Quantity::from_name(id.name()), false, false),
             Need::FeatureVariance(id) => add(Quantity::from_name(id.name()), true, false),

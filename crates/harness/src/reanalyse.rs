@@ -162,7 +162,7 @@ fn measure_again<'a>(
         // Told; the numbers stay as they were recorded.
         return Ok(());
     }
-    let options = ReadOptions { spp: Some(1) };
+    let options = ReadOptions { spp: Some(1), ..ReadOptions::default() };
     let reference = read_reference(dir.join(Layout::reference(&scene.id)), &options)?;
     let names: Vec<String> = scene.classes.iter().map(|(name, _)| name.clone()).collect();
     let path = dir.join(Layout::classes(&scene.id));

@@ -15,6 +15,7 @@ use crate::cache::{Cache, Key, seed_of};
 use crate::context::{Context, Row as RowContext};
 use crate::error::HarnessError;
 use crate::machine;
+use crate::memory::check_memory;
 use crate::observer::{Observer, Stage, Workload};
 use crate::plan::{Plan, Row};
 use crate::record::Record;
@@ -80,11 +81,13 @@ impl std::fmt::Debug for StudyRun<'_> {
 ///
 /// # Errors
 /// Before any work: [`HarnessError::Method`], [`HarnessError::Scene`], [`HarnessError::Folder`] and
-/// [`HarnessError::NoRow`] for names that do not exist, [`HarnessError::Locked`], [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and
+/// [`HarnessError::NoRow`] for names that do not exist, [`HarnessError::Memory`], [`HarnessError::Locked`],
+/// [`HarnessError::OtherStudy`]. Later: [`HarnessError::Io`] and
 /// [`HarnessError::Image`] for a full disk or an unwritable folder, [`HarnessError::Cancelled`]. Finished cells are
 /// intact after any of them.
 pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     let study = request.study;
+    check_memory(study, request.registry, request.size)?;
     let plan = Plan::new(study, request.registry, request.size)?;
     settle::check_again(request, &plan)?;
     let layout = Layout::new(request.out_dir);

@@ -3,6 +3,7 @@ mod check;
 mod compare;
 mod folder;
 mod frames;
+mod limits;
 mod of_scene;
 mod parse;
 mod plain;

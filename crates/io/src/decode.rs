@@ -22,8 +22,8 @@ use exr::meta::header::Header;
 use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::f16;
 
-use crate::IoError;
 use crate::attributes::{Attributes, decode_text};
+use crate::{IoError, limits};
 
 /// Most pixels that a file may claim.
 pub(crate) const MAX_PIXELS: usize = 1 << 28;
@@ -48,6 +48,9 @@ pub(crate) struct Opened {
     pub(crate) attributes: Attributes,
     /// Whether the compression changes numbers by more than rounding them.
     pub(crate) lossy: bool,
+    file_bytes: u64,
+    raw_bytes: u64,
+    limit: Option<u64>,
     reader: Reader<Watched>,
     ended: Rc<Cell<bool>>,
 }
@@ -105,9 +108,34 @@ impl Opened {
             height: header.layer_size.height(),
             channels: header.channels.list.iter().map(describe).collect(),
             attributes,
+            file_bytes: bytes,
+            // Below 2^33 by `sound_header`.
+            raw_bytes: (header.layer_size.area() * header.channels.bytes_per_pixel) as u64,
+            limit: None,
             reader,
             ended,
         })
+    }
+
+    /// Sets the most bytes that decoded values may take, instead of what [`crate::ReadOptions`] says by default.
+    pub(crate) fn within(self, limit: Option<u64>) -> Self {
+        Self { limit, ..self }
+    }
+
+    /// Refuses to allocate, or to decompress, far more than a file of this size is likely to hold.
+    fn check_decoded(&self, planes: usize) -> Result<(), IoError> {
+        let decoded = 4 * (self.width * self.height) as u64 * planes as u64;
+        let likely = limits::likely_bytes(self.file_bytes);
+        let (bytes, allowed) = match self.limit {
+            Some(limit) => (decoded, limit),
+            None if self.raw_bytes > likely => (self.raw_bytes, likely),
+            None => (decoded, likely.min(limits::MAX_DECODED_BYTES)),
+        };
+        if bytes <= allowed {
+            return Ok(());
+        }
+        let (file, width, height) = (self.file.clone(), self.width, self.height);
+        Err(IoError::Memory { file, width, height, bytes, allowed, file_bytes: self.file_bytes })
     }
 
     /// Decodes the channels that have a target, one target per channel. `float_planes` holds the number of planes of
@@ -118,6 +146,7 @@ impl Opened {
         float_planes: &[usize],
         count_buffers: usize,
     ) -> Result<Buffers, IoError> {
+        self.check_decoded(float_planes.iter().sum::<usize>() + count_buffers)?;
         let Self { file, width, height, channels, reader, ended, .. } = self;
         let largest_level = |_: &MetaData, tile: TileCoordinates, _| tile.is_largest_resolution_level();
         // This reads the table of block positions, so that a file that lacks it ends here, before allocation.

@@ -77,6 +77,25 @@ pub enum IoError {
         /// The limit that is exceeded.
         limit: String,
     },
+    /// What is to be read takes more memory once decoded than is allowed.
+    #[error(
+        "{file}: {width}×{height} pixels take {bytes} bytes once decoded; allowed for a file of {file_bytes} bytes are \
+         {allowed} (to read it all the same: `denoise --max-memory`, or `max_decoded_bytes` of the library)"
+    )]
+    Memory {
+        /// File.
+        file: PathBuf,
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Bytes of the values that were to be decoded.
+        bytes: u64,
+        /// The most that is allowed.
+        allowed: u64,
+        /// Size of the file.
+        file_bytes: u64,
+    },
     /// A layer that must be there is not.
     #[error("{file}: no layer `{layer}`, which {needed_by} needs")]
     MissingLayer {

@@ -27,6 +27,7 @@ mod encode;
 mod error;
 mod folder;
 mod layers;
+mod limits;
 mod names;
 mod read;
 mod write;
@@ -35,6 +36,7 @@ pub use atomic::write_atomically;
 pub use destination::{Destination, same_file};
 pub use error::IoError;
 pub use folder::{FolderFrame, FrameFolder, scan_scenes};
+pub use limits::MAX_DECODED_BYTES;
 pub use read::{
     FileInfo, FrameFile, ReadOptions, read_attributes, read_checked_frame, read_checked_reference,
     read_color, read_frame, read_frame_file, read_image, read_info, read_reference,

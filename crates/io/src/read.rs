@@ -18,6 +18,10 @@ pub struct ReadOptions {
     /// Samples per pixel of files whose header has neither `spp` nor `samplesPerPixel`, and which have no `samples`
     /// layer. Ignored for the others.
     pub spp: Option<u32>,
+    /// Most bytes that the values of the layers that are read may take. Unless it is set: [`crate::MAX_DECODED_BYTES`],
+    /// and not more than 256 times the size of the file where that is more than 512 MiB. Checked before anything is
+    /// allocated.
+    pub max_decoded_bytes: Option<u64>,
 }
 
 /// What the header of a file says. Nothing is decoded.
@@ -88,6 +92,7 @@ pub fn read_attributes(path: impl AsRef<Path>) -> Result<BTreeMap<String, String
 ///
 /// # Errors
 /// [`IoError`] naming file, layer and channel: unreadable, not EXR, truncated, malformed, unsupported or too large;
+/// [`IoError::Memory`] if the decoded values would be;
 /// colour, its statistics or sample counts that are incomplete, mislabelled or doubled; two kinds of flash;
 /// attributes without meaning; no sample count.
 pub fn read_frame(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Frame, IoError> {
@@ -198,7 +203,7 @@ fn read_parts(
     options: &ReadOptions,
     with_parts: bool,
 ) -> Result<(Reference, Vec<Finding>, Fidelity), IoError> {
-    let opened = Opened::open(path)?;
+    let opened = Opened::open(path)?.within(options.max_decoded_bytes);
     let fidelity = if opened.lossy { Fidelity::Lossy } else { Fidelity::Rounded };
     let mut layers = Layers::find(&opened, |layer, _| with_parts || !matches!(layer, Layer::Part(_)))?;
     let facts = attributes::facts(path, &opened.attributes)?;

@@ -10,7 +10,7 @@ use noisefloor_io::{
     FrameFolder, IoError, ReadOptions, scan_scenes, write_frame, write_image, write_reference,
 };
 
-const HEADER: ReadOptions = ReadOptions { spp: None };
+const HEADER: ReadOptions = ReadOptions { spp: None, max_decoded_bytes: None };
 
 fn frame(path: &Path, spp: u32, seed: Option<u64>, width: usize) {
     let mut frame =
@@ -88,7 +88,8 @@ fn what_is_missing_or_does_not_fit_is_named() {
     std::fs::remove_file(at("wider.exr")).unwrap();
     write_image(at("b.exr"), &common::image(5, 4, 3, 3), &common::no_attributes()).unwrap();
     assert!(matches!(scan(), Err(IoError::MissingSpp { file }) if file == at("b.exr")));
-    let known = FrameFolder::scan(folder.path(), &ReadOptions { spp: Some(2) }).unwrap();
+    let known =
+        FrameFolder::scan(folder.path(), &ReadOptions { spp: Some(2), ..ReadOptions::default() }).unwrap();
     assert_eq!(known.frames.iter().map(|f| f.spp).collect::<Vec<_>>(), [2, 4]);
     std::fs::remove_file(at("b.exr")).unwrap();
     std::fs::write(at("c.exr"), "nonsense").unwrap();

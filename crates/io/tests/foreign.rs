@@ -44,7 +44,7 @@ fn scratch() -> (tempfile::TempDir, PathBuf) {
     (folder, path)
 }
 
-const NO_SPP: ReadOptions = ReadOptions { spp: None };
+const NO_SPP: ReadOptions = ReadOptions { spp: None, max_decoded_bytes: None };
 
 #[test]
 fn half_and_unsigned_channels_are_read_beside_floats() {
@@ -108,7 +108,7 @@ fn the_sample_count_may_be_an_integer_a_float_or_text() {
     for (name, value) in accepted {
         write(&path, rgb(), Encoding::FAST_LOSSLESS, with(&[(name, value)]));
         assert_eq!(read_frame(&path, &NO_SPP).unwrap().samples, Samples::uniform(64));
-        let other = ReadOptions { spp: Some(3) };
+        let other = ReadOptions { spp: Some(3), ..ReadOptions::default() };
         assert_eq!(read_frame(&path, &other).unwrap().samples, Samples::uniform(64), "the header wins");
     }
     let vector = AttributeValue::FloatVec2(Vec2(64.0, 64.0));
@@ -137,10 +137,10 @@ fn a_file_without_sample_count_is_usable_when_the_caller_knows_it() {
     let error = read_frame(&path, &NO_SPP).unwrap_err().to_string();
     assert!(error.contains("foreign.exr") && error.contains("--spp"), "{error}");
     assert_eq!(read_info(&path).unwrap().spp, None);
-    let frame = read_frame(&path, &ReadOptions { spp: Some(8) }).unwrap();
+    let frame = read_frame(&path, &ReadOptions { spp: Some(8), ..ReadOptions::default() }).unwrap();
     assert_eq!(frame.samples, Samples::uniform(8));
     assert_eq!(frame.sampling, Sampling::Independent, "nothing says otherwise");
-    let zero = read_frame(&path, &ReadOptions { spp: Some(0) });
+    let zero = read_frame(&path, &ReadOptions { spp: Some(0), ..ReadOptions::default() });
     assert!(matches!(zero, Err(IoError::Count { .. })));
 }
 

@@ -12,7 +12,7 @@ use noisefloor_io::{
     IoError, ReadOptions, read_color, read_frame, read_image, read_reference, write_frame, write_reference,
 };
 
-const SPP: ReadOptions = ReadOptions { spp: Some(4) };
+const SPP: ReadOptions = ReadOptions { spp: Some(4), max_decoded_bytes: None };
 
 struct Scratch {
     _folder: tempfile::TempDir,
@@ -122,7 +122,7 @@ fn impossible_sample_counts_name_the_pixel() {
             AnyChannels::sort(channels.into_iter().collect()),
         );
         Image::from_layer(layers).write().to_file(&s.path).unwrap();
-        let error = read_frame(&s.path, &ReadOptions { spp: Some(8) }).unwrap_err();
+        let error = read_frame(&s.path, &ReadOptions { spp: Some(8), ..ReadOptions::default() }).unwrap_err();
         assert!(matches!(&error, IoError::Count { layer: l, x: 3, y: 1, .. } if l == layer), "{error}");
     }
 }

@@ -6,7 +6,7 @@ use exr::prelude::*;
 use noisefloor_frame::{FeatureId, Finding, FindingKind};
 use noisefloor_io::{FrameFile, ReadOptions, read_color, read_frame_file, read_info};
 
-const SPP: ReadOptions = ReadOptions { spp: Some(4) };
+const SPP: ReadOptions = ReadOptions { spp: Some(4), max_decoded_bytes: None };
 
 /// A 4×3 file with these float channels beside R, G and B; channel k of the list has the value k + 1.
 fn write(path: &Path, names: &[&str]) {

@@ -45,6 +45,35 @@ pub enum RenderError {
         /// Comma-separated names of what it can give.
         available: String,
     },
+    /// An image that takes more memory than is allowed; found before anything is allocated.
+    #[error(
+        "{width}×{height} pixels with {planes} values each take about {bytes} bytes of memory, allowed are {allowed}; make \
+         the image smaller, record less (--record), or raise the limit (--max-memory, or `max_memory` of the library)"
+    )]
+    Memory {
+        /// Columns.
+        width: usize,
+        /// Rows.
+        height: usize,
+        /// Values of 4 bytes that are kept of every pixel.
+        planes: usize,
+        /// Bytes that rendering and writing it take.
+        bytes: u64,
+        /// The most that is allowed.
+        allowed: u64,
+    },
+    /// Most samples were infinite or not a number: light whose arithmetic leaves the range of `f32`.
+    #[error(
+        "scene `{scene}`: {non_finite} of {samples} samples are not finite: nothing of the image can be believed"
+    )]
+    NonFinite {
+        /// Scene id.
+        scene: String,
+        /// Samples that are not finite.
+        non_finite: u64,
+        /// All samples.
+        samples: u64,
+    },
     /// The progress callback asked to stop.
     #[error("rendering was cancelled")]
     Cancelled,

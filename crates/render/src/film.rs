@@ -4,6 +4,7 @@ use std::sync::Mutex;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
+use crate::memory::zeros;
 use crate::{Progress, RenderError};
 
 /// Image planes, row by row.
@@ -27,7 +28,7 @@ const PIECE_SAMPLES: usize = 8192;
 /// no difference to the result, because pixels share nothing.
 ///
 /// # Errors
-/// [`RenderError::Cancelled`].
+/// [`RenderError::Cancelled`], [`RenderError::Memory`].
 pub fn develop<T>(
     extent: Extent,
     planes: usize,
@@ -37,7 +38,7 @@ pub fn develop<T>(
 ) -> Result<Planes, RenderError> {
     let count = extent.width * extent.height;
     let piece = (PIECE_SAMPLES / extent.samples.max(1) as usize).clamp(1, 1024);
-    let done = Mutex::new(vec![vec![0.0f32; count]; planes]);
+    let done = Mutex::new(zeros(extent.width, extent.height, planes)?);
     (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(&scratch, |scratch, index| {
         let range = index * piece..((index + 1) * piece).min(count);
         let mut values = vec![0.0f32; range.len() * planes];

@@ -158,6 +158,8 @@ impl LightsBuilder {
     /// An emissive sphere; returns its index.
     pub fn sphere(&mut self, center: Vec3A, radius: f32, emission: Vec3A) -> u32 {
         let power = 4.0 * PI * PI * radius * radius * luminance(emission);
+        // Of huge spheres only its being the largest matters.
+        let power = power.min(f32::MAX);
         self.sources.push((Kind::Sphere { center, radius, emission }, power));
         (self.sources.len() - 1) as u32
     }
@@ -167,7 +169,7 @@ impl LightsBuilder {
         let disc = PI * radius * radius;
         if let Some(sun) = sun {
             let irradiance = sun.radiance * (TAU * sun.height);
-            self.sources.push((Kind::Sun(sun), disc * luminance(irradiance)));
+            self.sources.push((Kind::Sun(sun), (disc * luminance(irradiance)).min(f32::MAX)));
         }
         if let Some(sky) = sky {
             let (kind, power) = match sky {
@@ -181,7 +183,7 @@ impl LightsBuilder {
                     (Kind::Environment(Arc::new(environment)), power)
                 }
             };
-            self.sources.push((kind, radius * radius * power));
+            self.sources.push((kind, (radius * radius * power).min(f32::MAX)));
         }
         let total: f64 = self.sources.iter().map(|s| f64::from(s.1)).sum();
         let mut out = Lights::default();

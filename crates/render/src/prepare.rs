@@ -2,7 +2,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{Vec2, Vec3, Vec3A};
 use noisefloor_scenes::{
-    Body, CameraMove, CameraSpec, Color, EnvironmentMap, Material, Models, Scattering, Scene, Sky,
+    Body, CameraMove, CameraSpec, Color, EnvironmentMap, MOST_RADIANCE, Material, Models, Scattering, Scene,
+    Sky,
 };
 
 use obvhs::aabb::Aabb;
@@ -354,7 +355,7 @@ impl Check<'_> {
     }
 
     fn radiance(&self, value: Vec3, what: impl FnOnce() -> String) -> Result<(), RenderError> {
-        if value.is_finite() && value.min_element() >= 0.0 && value.max_element() <= 1e15 {
+        if value.is_finite() && value.min_element() >= 0.0 && value.max_element() <= MOST_RADIANCE {
             return Ok(());
         }
         self.fail(what(), value, "finite, not negative and at most 1e15")
@@ -381,6 +382,9 @@ impl Check<'_> {
                 "sun half angle".into()
             })?;
             self.radiance(sun.irradiance, || "sun irradiance".into())?;
+            let sin = sun.half_angle_degrees.to_radians().sin();
+            let radiance = sun.irradiance.max_element() / (std::f32::consts::PI * sin * sin);
+            self.range(radiance, 0.0..=1e18, "at most 1e18", || "sun radiance".into())?;
         }
         let problem = scene.medium.as_ref().and_then(|medium| medium.problem(scene));
         let problem = problem.or_else(|| scene.animation.as_ref().and_then(|a| a.problem(scene)));

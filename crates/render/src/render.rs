@@ -25,15 +25,18 @@ const REFERENCE_SEQUENCES: u32 = 1 << 16;
 /// s²/n all the same, which is not the variance of the mean there. Variances and halves are left out with one sample.
 ///
 /// # Errors
-/// [`RenderError::InvalidRequest`] and [`RenderError::Unavailable`] before any work; [`RenderError::Cancelled`].
+/// [`RenderError::InvalidRequest`], [`RenderError::Unavailable`] and [`RenderError::Memory`] before any work;
+/// [`RenderError::Cancelled`]; [`RenderError::NonFinite`] if most samples are not finite.
 pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Frame, RenderError> {
     request.check()?;
     let limit = if request.spp >= 2 { Keep::ALL } else { Keep::MEAN };
     let plan = Plan::new(request, limit)?;
+    request.check_memory(plan.planes())?;
     let start = Instant::now();
     let counts = Totals::default();
     let shot = Shot::new(request, &plan, &counts);
     let planes = shot.dispatch(plan.planes(), progress)?;
+    counts.check(request)?;
     let even = |end: u32| end.div_ceil(2);
     let end = request.sample_start + request.spp; // checked above
     let samples =
@@ -73,10 +76,12 @@ pub fn render_reference(
         return wrong("sample_start", request.sample_start, "0 for a reference".into());
     }
     let plan = Plan::new(request, Keep::MEAN)?;
+    request.check_memory(3 * parts as usize + plan.planes())?;
     let start = Instant::now();
     let counts = Totals::default();
     let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &counts) };
     let mut planes = shot.dispatch(3 * parts as usize + plan.planes(), progress)?;
+    counts.check(request)?;
     let rest = planes.split_off(3 * parts as usize);
     let images = planes
         .chunks_exact(3)
@@ -170,6 +175,16 @@ impl Totals {
     /// Samples that were not finite, and rays.
     pub(crate) fn read(&self) -> [u64; 2] {
         [&self.non_finite, &self.rays].map(|count| count.load(Ordering::Relaxed))
+    }
+
+    /// Refuses an image of which more than half is made up: samples that are not finite count as black.
+    fn check(&self, request: &RenderRequest<'_>) -> Result<(), RenderError> {
+        let [non_finite, _] = self.read();
+        let samples = (request.width * request.height) as u64 * u64::from(request.spp);
+        if non_finite <= samples / 2 {
+            return Ok(());
+        }
+        Err(RenderError::NonFinite { scene: request.scene.id().into(), non_finite, samples })
     }
 
     /// Adds what another rendering counted.

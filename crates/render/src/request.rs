@@ -51,6 +51,8 @@ pub struct RenderRequest<'a> {
     pub integrator: Integrator,
     /// Photon maps of the scene.
     pub photons: Option<&'a PhotonMaps>,
+    /// Most bytes of memory that the image may take, see [`RenderRequest::memory`].
+    pub max_memory: u64,
 }
 
 impl<'a> RenderRequest<'a> {
@@ -71,6 +73,7 @@ impl<'a> RenderRequest<'a> {
             feature_hit: FeatureHit::First,
             integrator: Integrator::PathTracing,
             photons: None,
+            max_memory: crate::MAX_MEMORY,
         }
     }
 

@@ -13,6 +13,9 @@ use crate::request::LONGEST_SEQUENCE;
 use crate::tally::Tally;
 use crate::{Keep, Progress, RenderError, RenderRequest};
 
+/// What a pixel takes beside the frame that it ends in, in units of what the frame takes per value: 1952 bytes.
+const PIXEL_VALUES: usize = 244;
+
 /// Pixels in one piece of work.
 const PIECE: usize = 64;
 
@@ -66,6 +69,7 @@ impl<'a> Rounds<'a> {
             return Err(wrong("spp", request.spp.to_string(), "at least 2 in the first round".into()));
         }
         let plan = Plan::new(request, Keep::ALL)?;
+        request.check_memory(plan.planes() + PIXEL_VALUES)?;
         let count = request.width * request.height;
         let first = request.sample_start;
         let pixels = match (plan.features, plan.flash) {

@@ -9,8 +9,8 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::Sampling;
 use noisefloor_render::{
-    Integrator, PhotonMaps, PhotonSettings, Prepared, RenderError, RenderRequest, Silent, pixel_classes,
-    render, render_reference,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderError, RenderRequest, Rounds, Silent,
+    pixel_classes, render, render_reference,
 };
 use noisefloor_scenes::{EnvironmentMap, Lens, Medium, Scattering, Scene, Sky, Sun};
 
@@ -98,6 +98,79 @@ fn requests_out_of_range_name_their_parameter() {
         assert!(error.to_string().starts_with(parameter), "{error}");
     }
     assert!(pixel_classes(&prepared, 3, 0).is_err());
+}
+
+#[test]
+fn images_beyond_the_memory_are_refused_before_they_are_taken() {
+    let prepared = Prepared::new(&cornell()).unwrap();
+    let request =
+        RenderRequest { record: Record::color_only(), ..RenderRequest::new(&prepared, 16384, 16384, 4) };
+    // Mean, variance and halves of three channels, for the frame and its file.
+    assert_eq!(request.memory(None).unwrap(), (1 << 28) * 12 * 8);
+    let error = render(&RenderRequest { max_memory: 6 << 30, ..request.clone() }, &Silent).unwrap_err();
+    let RenderError::Memory { bytes, allowed, planes: 12, .. } = error else { panic!("{error}") };
+    assert_eq!((bytes, allowed), ((1 << 28) * 12 * 8, 6 << 30));
+    assert!(error.to_string().contains("16384×16384"), "{error}");
+    // A reference: eight parts, and the mean that nothing is recorded beside.
+    assert_eq!(request.memory(Some(8)).unwrap(), (1 << 28) * (3 * 8 + 3) * 8);
+    let error =
+        render_reference(&RenderRequest { spp: 1024 * 8, ..request.clone() }, 1024, &Silent).unwrap_err();
+    assert!(matches!(error, RenderError::Memory { .. }), "more than 64 GiB by default: {error}");
+    let small = RenderRequest { max_memory: 1000, ..RenderRequest::new(&prepared, 8, 8, 4) };
+    assert!(matches!(Rounds::start(&small, &Silent), Err(RenderError::Memory { .. })));
+}
+
+#[test]
+fn light_beyond_the_range_of_arithmetic_is_refused_where_it_stands() {
+    let map =
+        |texels: Vec<Vec3>| Some(Sky::Map(EnvironmentMap { width: texels.len(), height: 1, texels }.into()));
+    let bright = Vec3::splat(3e38);
+    let told = spoil(|s| s.sky = map(vec![Vec3::ONE, Vec3::ONE, bright]));
+    assert!(told.contains("texel (2, 0)") && told.contains("at most 1e15"), "{told}");
+    for told in [
+        spoil(|s| s.sky = map(vec![bright])),
+        spoil(|s| s.sky = Some(Sky::Constant(bright))),
+        spoil(|s| s.materials[0].emission = bright),
+        spoil(|s| {
+            s.sun = Some(Sun { direction: Vec3::Y, half_angle_degrees: 1.0, irradiance: bright });
+        }),
+        spoil(|s| {
+            s.sun = Some(Sun { direction: Vec3::Y, half_angle_degrees: 1e-3, irradiance: Vec3::splat(1e14) });
+        }),
+    ] {
+        assert!(told.contains("at most 1e1"), "{told}");
+    }
+}
+
+#[test]
+fn the_brightest_light_that_is_allowed_gives_a_picture() {
+    let white = |s: &mut Scene, light: f32| {
+        s.materials.iter_mut().for_each(|m| m.emission = Vec3::ZERO);
+        s.sky =
+            Some(Sky::Map(EnvironmentMap { width: 1, height: 1, texels: vec![Vec3::splat(light)] }.into()));
+    };
+    let picture = |light: f32| {
+        let mut scene = cornell();
+        white(&mut scene, light);
+        let prepared = Prepared::new(&scene).unwrap();
+        render(
+            &RenderRequest { record: Record::color_only(), ..RenderRequest::new(&prepared, 16, 12, 16) },
+            &Silent,
+        )
+    };
+    let (dim, bright) = (picture(1.0).unwrap(), picture(1e15).unwrap());
+    for (a, b) in dim.color.mean.data().iter().zip(bright.color.mean.data()) {
+        assert!((f64::from(*b) - 1e15 * f64::from(*a)).abs() <= 1e-4 * f64::from(*b), "{a} {b}");
+    }
+    let variance = bright.color.variance.unwrap();
+    assert_eq!(variance.mean_variance().count_non_finite(), 0);
+    // A scene as large as may be, under a sky of any brightness: the powers of lights do not overflow into nothing.
+    let mut scene = empty(camera(Vec3::new(0.0, 0.0, 9e14), Vec3::ZERO, 30.0));
+    add_material(&mut scene, diffuse(0.5), 0.0);
+    sphere(&mut scene, Vec3::ZERO, 1e14, 0);
+    scene.sky = Some(Sky::Constant(Vec3::splat(1e15)));
+    let frame = render(&RenderRequest::new(&Prepared::new(&scene).unwrap(), 8, 6, 16), &Silent).unwrap();
+    assert!(frame.color.mean.data().iter().all(|v| *v > 1e14), "{:?}", frame.color.mean.data());
 }
 
 #[test]

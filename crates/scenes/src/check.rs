@@ -3,6 +3,10 @@ use thiserror::Error;
 
 use crate::{Color, Material, Mesh, Scattering, Scene};
 
+/// The most radiance (or irradiance of a sun) that a light may have: beyond it, squares that statistics are made of
+/// leave the range of `f32`.
+pub const MOST_RADIANCE: f32 = 1e15;
+
 /// Why a scene cannot be rendered.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[non_exhaustive]
@@ -204,7 +208,8 @@ impl Scene {
 
     fn radiance(&self, what: impl Fn() -> String, v: Vec3) -> Result<(), SceneError> {
         self.finite(&what, v)?;
-        self.within(what, v.min_element(), "at least 0", |c| c >= 0.0)
+        self.within(&what, v.min_element(), "at least 0", |c| c >= 0.0)?;
+        self.within(what, v.max_element(), "at most 1e15", |c| c <= MOST_RADIANCE)
     }
 
     fn within(

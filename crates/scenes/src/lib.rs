@@ -23,7 +23,7 @@ pub mod texture;
 
 pub use animation::{Animation, Body, CameraMove, Spin};
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};
-pub use check::SceneError;
+pub use check::{MOST_RADIANCE, SceneError};
 pub use environment::EnvironmentMap;
 pub use medium::Medium;
 pub use scene::{

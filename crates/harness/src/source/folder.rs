@@ -108,7 +108,8 @@ impl Imported {
 
     pub(super) fn reference(&self) -> Result<(Reference, Vec<Finding>), HarnessError> {
         // The count of the reference only serves to say how long it is; a file without one is usable.
-        Ok(read_checked_reference(&self.reference, &ReadOptions { spp: self.options.spp.or(Some(1)) })?)
+        let options = ReadOptions { spp: self.options.spp.or(Some(1)), ..self.options };
+        Ok(read_checked_reference(&self.reference, &options)?)
     }
 }
 

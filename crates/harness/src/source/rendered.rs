@@ -69,8 +69,7 @@ fn build(
 ) -> Result<(noisefloor_scenes::Scene, String, Vec<String>), HarnessError> {
     match &spec.source {
         SceneSource::Gltf(path) => {
-            let loaded = noisefloor_gltf::load(path)
-                .map_err(|source| HarnessError::Gltf { path: path.clone(), source })?;
+            let loaded = noisefloor_gltf::load(path)?;
             let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
             Ok((loaded.scene, format!("glTF file {name}"), loaded.notices))
         }

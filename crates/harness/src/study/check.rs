@@ -7,6 +7,7 @@ use noisefloor_frame::{Reference, Sampling};
 use crate::error::{HarnessError, Place};
 use crate::study::compare::check_comparisons;
 use crate::study::frames::check_frames;
+use crate::study::limits::{LONGEST_NAME, MOST_PER_PART, MOST_REPLICATES, bad_replicates, check_limits};
 use crate::study::sequence::check_sequences;
 use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
 
@@ -36,7 +37,7 @@ impl Lines<'_> {
     }
 
     /// The first line that sets this key.
-    fn of_key(&self, key: &str) -> Option<usize> {
+    pub(super) fn of_key(&self, key: &str) -> Option<usize> {
         let sets = |line: &str| {
             line.trim_start().strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='))
         };
@@ -66,10 +67,8 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
     {
         return wrong("spp", key("spp"), format!("{:?}", study.spp), problem);
     }
-    let replicates = std::iter::once(study.replicates.default)
-        .chain(study.replicates.above.iter().map(|(_, count)| *count));
-    if let Some(bad) = replicates.into_iter().find(|n| !(1..=10_000).contains(n)) {
-        return wrong("replicates", key("replicates"), bad.to_string(), "1 to 10000");
+    if let Some(bad) = bad_replicates(&study.replicates) {
+        return wrong("replicates", key("replicates"), bad.to_string(), &format!("1 to {MOST_REPLICATES}"));
     }
     for (name, size) in [("width", study.width), ("height", study.height)] {
         if !(1..=16_384).contains(&size) {
@@ -79,13 +78,11 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
     if !(1..=1024).contains(&study.depth) {
         return wrong("depth", key("depth"), study.depth.to_string(), "1 to 1024");
     }
+    check_limits(study, lines)?;
     // Truth that is exact or comes with its frames is not rendered: nobody is asked how, and the default may be anything.
     let rendered = |s: &SceneSpec| matches!(s.source, SceneSource::Builtin(_) | SceneSource::Gltf(_));
     if study.scenes.iter().any(rendered) || lines.of_table("reference").is_some() {
         check_reference(study, lines)?;
-    }
-    if study.timing.runs == 0 {
-        return wrong("timing.runs", key("runs"), "0".into(), "at least 1");
     }
     if let Some(bad) = study.coverage.iter().find(|c| !(**c > 0.0 && **c < 1.0)) {
         return wrong("coverage", key("coverage"), bad.to_string(), "probabilities strictly between 0 and 1");
@@ -131,6 +128,9 @@ fn check_reference(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError>
         return wrong("spp", reference.spp, format!("a positive multiple of {} parts", reference.parts));
     }
     let per_part = reference.spp / reference.parts;
+    if per_part > MOST_PER_PART {
+        return wrong("spp", reference.spp, format!("at most {MOST_PER_PART} per part"));
+    }
     let longest = 2 * noisefloor_render::LONGEST_SEQUENCE;
     if reference.sampling == Sampling::LowDiscrepancy && per_part > longest {
         return wrong("spp", reference.spp, format!("at most {longest} per low-discrepancy part"));
@@ -160,11 +160,6 @@ fn check_scenes(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError> {
             && let Some(problem) = levels_problem(spp)
         {
             return wrong(index, "spp", format!("{spp:?}"), problem);
-        }
-        if let Some(replicates) = &scene.replicates
-            && std::iter::once(replicates.default).chain(replicates.above.iter().map(|a| a.1)).any(|n| n == 0)
-        {
-            return wrong(index, "replicates", "0".into(), "1 to 10000");
         }
         if let SceneSource::Folder(path) = &scene.source
             && !path.is_dir()
@@ -230,6 +225,10 @@ fn levels_problem(levels: &[u32]) -> Option<&'static str> {
     (!levels.is_sorted_by(|a, b| a < b)).then_some("ascending numbers without repetition")
 }
 
-fn quoted(text: &str) -> String {
-    format!("`{text}`")
+/// For messages; of a long text its beginning.
+pub(super) fn quoted(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_NAME) {
+        Some((end, _)) => format!("`{}…`", &text[..end]),
+        None => format!("`{text}`"),
+    }
 }

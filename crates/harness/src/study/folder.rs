@@ -16,7 +16,7 @@ impl Study {
     /// [`HarnessError::Image`] if there are no frames or no reference, [`HarnessError::Folder`] for `spp` with frames
     /// of several levels, [`HarnessError::Field`] for rows of equal label.
     pub fn for_folder(path: &Path, spp: Option<u32>, rows: Vec<MethodRow>) -> Result<Self, HarnessError> {
-        let folders = scan_scenes(path, &ReadOptions { spp })?;
+        let folders = scan_scenes(path, &ReadOptions { spp, ..ReadOptions::default() })?;
         let name = clean(&path.canonicalize().unwrap_or_else(|_| path.to_owned()));
         let mut levels = BTreeSet::new();
         let mut scenes = Vec::new();
@@ -24,8 +24,13 @@ impl Study {
         for folder in &folders {
             levels.extend(folder.frames.iter().map(|frame| frame.spp));
             let mut id = clean(&folder.path.canonicalize().unwrap_or_else(|_| folder.path.clone()));
-            while !taken.insert(id.clone()) {
-                id.push('_');
+            let first = id.clone();
+            for number in 1.. {
+                if taken.insert(id.clone()) {
+                    break;
+                }
+                // One more of that name, then numbers: names stay short however many are equal.
+                id = if number == 1 { format!("{first}_") } else { format!("{first}_{number}") };
             }
             let silent = folder.frames.iter().any(|frame| frame.info.spp.is_none());
             let own: BTreeSet<u32> = folder.frames.iter().map(|frame| frame.spp).collect();
@@ -63,7 +68,12 @@ impl Study {
 /// Last part of a path as a name without special characters.
 fn clean(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let kept: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' }).collect();
+    // With room for what tells equal names apart.
+    let most = crate::study::limits::LONGEST_NAME - 40;
+    let kept: String = name
+        .chars()
+        .take(most)
+        .map(|c| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' })
+        .collect();
     if kept.is_empty() { "frames".into() } else { kept }
 }

@@ -156,7 +156,7 @@ impl Study {
         let line_at = |offset: usize| text[..offset.min(text.len())].matches('\n').count() + 1;
         let raw: Raw = toml::from_str(text).map_err(|error| HarnessError::Syntax {
             place: Place { file: file.clone(), line: error.span().map(|span| line_at(span.start)) },
-            message: error.to_string().trim_end().to_owned(),
+            message: shortened(error.to_string().trim_end()),
         })?;
         let base = path.parent().unwrap_or(Path::new(""));
         let mut lines = Lines { file, text, ..Lines::default() };
@@ -226,6 +226,18 @@ impl Study {
         Self::from_toml(&text, path)
     }
 }
+
+/// The parser's message without the far ends of long lines, which it shows whole.
+fn shortened(message: &str) -> String {
+    let short = |line: &str| match line.char_indices().nth(LONGEST_LINE) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
+    };
+    message.lines().map(short).collect::<Vec<_>>().join("\n")
+}
+
+/// Characters of a line that messages show.
+const LONGEST_LINE: usize = 300;
 
 impl RawMethod {
     fn resolve(self, index: usize, line: usize, lines: &Lines<'_>) -> Result<MethodRow, HarnessError> {

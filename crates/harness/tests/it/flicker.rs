@@ -138,7 +138,11 @@ fn frames_that_are_rendered_have_the_noise_of_their_references_taken_out() {
     // The same again in two passes, from the files.
     let references = [0, 1, 2].map(|k| {
         let path = file(format!("reference/spin-{k}.exr"));
-        noisefloor_io::read_reference(path, &noisefloor_io::ReadOptions { spp: Some(1) }).unwrap()
+        noisefloor_io::read_reference(
+            path,
+            &noisefloor_io::ReadOptions { spp: Some(1), ..Default::default() },
+        )
+        .unwrap()
     });
     let (mut variance, mut noise) = (0.0, 0.0);
     let values = 16 * 12 * 3;

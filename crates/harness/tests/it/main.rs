@@ -8,6 +8,7 @@ mod flicker;
 mod frames;
 mod import;
 mod kept;
+mod limits;
 mod outcomes;
 mod paper;
 mod recorded;

@@ -64,7 +64,7 @@ fn textured_mesh_needs_coordinates() {
 #[test]
 fn numbers_out_of_range_are_refused_with_value_and_range() {
     type Spoil = fn(&mut Scene);
-    let cases: [(Spoil, &str); 10] = [
+    let cases: [(Spoil, &str); 12] = [
         (|s| s.camera.eye.y = f32::INFINITY, "the camera's eye"),
         (|s| s.camera.up = s.camera.target - s.camera.eye, "the camera's view and its up is 0"),
         (|s| s.camera.vertical_fov_degrees = 180.0, "the field of view is 180, allowed is inside (0, 180)"),
@@ -77,6 +77,8 @@ fn numbers_out_of_range_are_refused_with_value_and_range() {
         (|s| s.materials[0] = Material::glass("g", 1.0), "refractive index of `g` is 1, allowed is above 1"),
         (|s| s.materials[0] = Material::conductor("c", Vec3::ONE, 0.0), "roughness of `c` is 0"),
         (|s| s.sky = Some(Sky::Constant(Vec3::splat(f32::NAN))), "the sky is"),
+        (|s| s.sky = Some(Sky::Constant(Vec3::splat(3e38))), "allowed is at most 1e15"),
+        (|s| s.materials[0].emission.x = 3e38, "the emission of `ground` is"),
         (|s| s.add_sphere(Vec3::ZERO, -1.0, 0), "radius of sphere 0 is -1"),
     ];
     for (spoil, expected) in cases {

@@ -70,6 +70,13 @@ impl ImageTexture {
         Ok(Self { width, height, pixels, wrap, factor })
     }
 
+    /// The same image with every colour multiplied once more.
+    #[must_use]
+    pub fn times(mut self, factor: Vec3) -> Self {
+        self.factor *= factor;
+        self
+    }
+
     pub(super) fn eval(&self, uv: Vec2) -> Vec3 {
         let (x, y) = (uv.x * self.width as f32 - 0.5, uv.y * self.height as f32 - 0.5);
         let (left, top) = (x.floor(), y.floor());
@@ -108,6 +115,12 @@ mod tests {
         }
         assert_eq!(pair(Wrap::Mirror).eval(Vec2::new(-0.75, 0.5)), Vec3::Y);
         assert!(pair(Wrap::Repeat).eval(Vec2::splat(1e30)).is_finite());
+    }
+
+    #[test]
+    fn factors_multiply() {
+        let twice = pair(Wrap::Clamp).times(Vec3::splat(0.5)).times(Vec3::new(0.5, 1.0, 1.0));
+        assert_eq!(twice.eval(Vec2::new(0.25, 0.5)), Vec3::new(0.25, 0.0, 0.0));
     }
 
     #[test]

@@ -1,3 +1,8 @@
+mod colors;
+mod hostile;
+mod light;
+mod mutations;
+
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -17,15 +22,20 @@ fn uri(bytes: &[u8]) -> String {
     format!("data:application/octet-stream;base64,{}", STANDARD.encode(bytes))
 }
 
-/// A 2x1 image: a pixel of sRGB 188, then a red one.
-fn image() -> String {
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+/// A PNG file of sRGB colours.
+fn png_of(width: u32, height: u32, bytes: &[u8]) -> Vec<u8> {
+    let mut out = Vec::new();
+    let mut encoder = png::Encoder::new(&mut out, width, height);
     encoder.set_color(png::ColorType::Rgb);
     let mut writer = encoder.write_header().unwrap();
-    writer.write_image_data(&[188, 188, 188, 255, 0, 0]).unwrap();
+    writer.write_image_data(bytes).unwrap();
     writer.finish().unwrap();
-    uri(&bytes)
+    out
+}
+
+/// A 2x1 image: a pixel of sRGB 188, then a red one.
+fn image() -> String {
+    uri(&png_of(2, 1, &[188, 188, 188, 255, 0, 0]))
 }
 
 fn file(positions: [[f32; 3]; 4], indices: [u16; 6]) -> Value {
@@ -68,6 +78,28 @@ fn file(positions: [[f32; 3]; 4], indices: [u16; 6]) -> Value {
 
 fn square() -> Value {
     file(SQUARE, [0, 1, 2, 0, 2, 3])
+}
+
+/// A GLB file, with a binary chunk if there is something to put into it.
+fn binary(json: &Value, chunk: &[u8]) -> Vec<u8> {
+    let padded = |bytes: &[u8], by: u8| {
+        let mut bytes = bytes.to_vec();
+        bytes.resize(bytes.len().next_multiple_of(4), by);
+        bytes
+    };
+    let mut body = Vec::new();
+    for (kind, bytes) in [(b"JSON", padded(json.to_string().as_bytes(), b' ')), (b"BIN\0", padded(chunk, 0))]
+    {
+        if !bytes.is_empty() {
+            body.extend((bytes.len() as u32).to_le_bytes());
+            body.extend(kind);
+            body.extend(bytes);
+        }
+    }
+    let mut out = b"glTF\x02\0\0\0".to_vec();
+    out.extend((12 + body.len() as u32).to_le_bytes());
+    out.extend(body);
+    out
 }
 
 fn load_bytes(bytes: &[u8]) -> Result<Loaded, GltfError> {
@@ -137,13 +169,7 @@ fn an_emissive_square_that_fills_the_view_shows_exactly_its_emission() {
 
 #[test]
 fn binary_files_are_read_like_text() {
-    let mut json = square().to_string().into_bytes();
-    json.resize(json.len().next_multiple_of(4), b' ');
-    let mut bytes = b"glTF\x02\0\0\0".to_vec();
-    bytes.extend((20 + json.len() as u32).to_le_bytes());
-    bytes.extend((json.len() as u32).to_le_bytes());
-    bytes.extend(b"JSON");
-    bytes.extend(&json);
+    let bytes = binary(&square(), &[]);
     assert_eq!(load_bytes(&bytes).unwrap(), load_json(&square()).unwrap());
     assert!(load_bytes(&bytes[..100]).is_err());
 }
