@@ -61,7 +61,7 @@ impl Buffers {
     }
 
     /// The bytes of each element, every one inside its view.
-    fn elements(
+    pub fn elements(
         &self,
         accessor: &Accessor<'_>,
         components: usize,

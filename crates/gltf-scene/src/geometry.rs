@@ -20,11 +20,13 @@ pub struct Shape {
     pub dropped: usize,
 }
 
-/// How many vertices or triangles a primitive has at most, without looking at its data.
-pub fn size(primitive: &Primitive<'_>) -> usize {
-    let count = |a: gltf::Accessor<'_>| a.count();
-    let vertices = primitive.get(&Semantic::Positions).map_or(0, count);
-    vertices.max(primitive.indices().map_or(0, count))
+/// How many vertices or triangles a primitive has at most, without looking at more than the bounds of its data.
+pub fn size(primitive: &Primitive<'_>, buffers: &Buffers) -> Result<usize, GltfError> {
+    let count = |accessor: Option<gltf::Accessor<'_>>, components: usize| match accessor {
+        Some(accessor) => buffers.elements(&accessor, components).map(|_| accessor.count()),
+        None => Ok(0),
+    };
+    Ok(count(primitive.get(&Semantic::Positions), 3)?.max(count(primitive.indices(), 1)?))
 }
 
 /// The mesh of a primitive.

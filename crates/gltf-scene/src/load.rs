@@ -77,7 +77,7 @@ fn read(path: &Path) -> Result<Loaded, GltfError> {
         }
         for primitive in node.mesh().iter().flat_map(|m| m.primitives()) {
             // Before any work, and whether or not something of it is seen: a short file may use a mesh many times.
-            total = total.saturating_add(size(&primitive));
+            total = total.saturating_add(size(&primitive, &buffers)?);
             if total > MOST_TRIANGLES {
                 return Err(GltfError::TooManyTriangles { path: path.to_owned(), most: MOST_TRIANGLES });
             }

@@ -20,13 +20,19 @@ fn bomb(path: &Path, side: i32, bytes: usize) {
     let channels = names.map(|name| AnyChannel::new(name.as_str(), FlatSamples::F16(vec![f16::ZERO; 4])));
     let mut attributes = LayerAttributes::default();
     attributes.other.insert("spp".into(), attribute::AttributeValue::I32(16));
-    let layer =
-        Layer::new((2, 2), attributes, Encoding::FAST_LOSSLESS, AnyChannels::sort(channels.collect()));
+    let blocks = Blocks::ScanLines;
+    let encoding = Encoding { compression: Compression::ZIP16, blocks, line_order: LineOrder::Increasing };
+    let layer = Layer::new((2, 2), attributes, encoding, AnyChannels::sort(channels.collect()));
     Image::from_layer(layer).write().to_file(path).unwrap();
     let mut all = std::fs::read(path).unwrap();
-    let window = b"dataWindow\0box2i\0";
-    let at = all.windows(window.len()).position(|w| w == window).unwrap() + window.len() + 4 + 8;
-    all[at..at + 8].copy_from_slice(&[(side - 1).to_le_bytes(), (side - 1).to_le_bytes()].concat());
+    // Behind the name and type of an attribute stands its length.
+    let mut patch = |name: &[u8], offset: usize, numbers: &[i32]| {
+        let at = all.windows(name.len()).position(|w| w == name).unwrap() + name.len() + 4 + offset;
+        let bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
+        all[at..at + bytes.len()].copy_from_slice(&bytes);
+    };
+    patch(b"dataWindow\0box2i\0", 8, &[side - 1, side - 1]);
+    patch(b"chunkCount\0int\0", 0, &[(side + 15) / 16]);
     all.resize(bytes, 0);
     std::fs::write(path, all).unwrap();
 }

@@ -24,6 +24,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
     // A single level in the study file also says what the files themselves do not.
     let options = ReadOptions {
         spp: spec.spp.as_deref().and_then(|levels| <[u32; 1]>::try_from(levels).ok()).map(|[n]| n),
+        ..ReadOptions::default()
     };
     let folder = FrameFolder::scan(path, &options)?;
     let wanted = |spp: u32| spec.spp.as_ref().is_none_or(|levels| levels.contains(&spp));
