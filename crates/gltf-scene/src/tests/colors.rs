@@ -23,7 +23,7 @@ const RED_TO_GREEN: [[f32; 3]; 4] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0
 
 #[test]
 fn vertex_colours_are_multiplied_into_the_base_colour_and_run_from_vertex_to_vertex() {
-    let Loaded { scene, notices } = load_json(&colored(RED_TO_GREEN)).unwrap();
+    let Loaded { scene, notices, .. } = load_json(&colored(RED_TO_GREEN)).unwrap();
     assert!(!notices.iter().any(|n| n.contains("left out")), "{notices:?}");
     let Scattering::Diffuse { albedo: Color::Texture(texture) } = &scene.materials[0].scattering else {
         panic!("{:?}", scene.materials[0]);
@@ -89,7 +89,7 @@ fn wrong_vertex_colours_are_refused() {
 fn a_texture_that_has_no_coordinates_gives_its_mean() {
     let mut value = square();
     value["meshes"][0]["primitives"][0]["attributes"].as_object_mut().unwrap().remove("TEXCOORD_0");
-    let Loaded { scene, notices } = load_json(&value).unwrap();
+    let Loaded { scene, notices, .. } = load_json(&value).unwrap();
     let Scattering::Diffuse { albedo: Color::Constant(color) } = scene.materials[0].scattering else {
         panic!("{:?}", scene.materials[0]);
     };
@@ -103,7 +103,7 @@ fn a_texture_that_has_no_coordinates_gives_its_mean() {
 fn images_in_a_format_that_is_not_read_are_told() {
     let mut value = square();
     value["images"][0]["uri"] = json!(uri(&[0xff, 0xd8, 0xff, 0xe0]));
-    let Loaded { scene, notices } = load_json(&value).unwrap();
+    let Loaded { scene, notices, .. } = load_json(&value).unwrap();
     let factor = Scattering::Diffuse { albedo: Color::Constant(Vec3::new(0.5, 1.0, 1.0)) };
     assert_eq!(scene.materials[0].scattering, factor);
     assert!(notices.iter().any(|n| n.contains("JPEG")), "{notices:?}");
@@ -121,7 +121,9 @@ fn image_files_are_found_by_every_escape_of_their_name() {
         let mut value = square();
         value["images"][0]["uri"] = json!(escaped);
         std::fs::write(&path, value.to_string()).unwrap();
-        assert_eq!(load(&path).unwrap(), load_json(&square()).unwrap(), "{escaped}");
+        let loaded = load(&path).unwrap();
+        assert_eq!(loaded.scene, load_json(&square()).unwrap().scene, "{escaped}");
+        assert_eq!(loaded.files, [path.clone(), folder.path().join(name)], "{escaped}");
     }
     let mut value = square();
     for bad in ["%FF%FE.png", "none.png", "https://example.org/a.png"] {
