@@ -57,7 +57,8 @@ impl Compared<'_> {
 pub fn run(args: &Compare) -> anyhow::Result<Exit> {
     let plan = maps::plan(args)?;
     // The sample count of a reference plays no part here, so a file without one is fine.
-    let (reference, found) = read_checked_reference(&args.reference, &ReadOptions { spp: Some(1), ..ReadOptions::default() })?;
+    let (reference, found) =
+        read_checked_reference(&args.reference, &ReadOptions { spp: Some(1), ..ReadOptions::default() })?;
     let name = args.reference.display().to_string();
     let of_reference: Vec<Finding> = found.into_iter().map(|finding| finding.within(&name)).collect();
     let measurer = Measurer::new(&reference, None).with_context(|| args.reference.display().to_string())?;
