@@ -117,7 +117,9 @@ impl Lock {
         let root = layout.root();
         std::fs::create_dir_all(root).map_err(HarnessError::io("make folder", root))?;
         let path = root.join(".lock");
-        let file = File::create(&path).map_err(HarnessError::io("write", &path))?;
+        // Not emptied: the name may be a link to a file that is none of ours.
+        let file = OpenOptions::new().create(true).write(true).truncate(false).open(&path);
+        let file = file.map_err(HarnessError::io("write", &path))?;
         match file.try_lock() {
             Ok(()) => Ok(Self { _file: file }),
             Err(TryLockError::WouldBlock) => Err(HarnessError::Locked { path: root.to_owned() }),
