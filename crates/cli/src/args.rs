@@ -43,6 +43,8 @@ pub enum Verb {
     Convert(Convert),
     /// Make the analysis and the report again from kept records and images, running nothing
     Report(Report),
+    /// Record a study for a repository: its numbers without images, and a README with its tables and plots
+    Record(Record),
     /// List the denoising methods with their parameters, or show one with its page
     Methods(List),
     /// List the built-in scenes with what they model
@@ -305,6 +307,24 @@ pub struct Report {
     /// Largest size of the images embedded in the page, in MB
     #[arg(long, value_name = "MB", default_value_t = 10.0)]
     pub viewer_budget: f64,
+}
+
+/// `noisefloor record`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor record noisefloor-results/quick reports/quick\n  \
+    noisefloor record reports/quick reports/quick            README and plots again\n  \
+    noisefloor report reports/quick --out /tmp/quick         summary and page from a recording\n\n\
+    TO gets study.json, context.json and results.jsonl.gz, from which `noisefloor report` makes summary and page; images are \
+    not kept. In TO/README.md everything between `<!-- noisefloor:table KIND key=value -->` and `<!-- /noisefloor -->` is made \
+    anew, and the plots that it shows as `plots/NAME.svg` are written. Kinds: answers, levels, methods, coverage, bounds, \
+    slopes, estimates, paper, equal-time, flicker, absent, machine. Keys: metric=ID, show=value|ratio|multiplier, \
+    scenes=\"A; B\", spp=\"4; 16\", rows=\"A; B\". A block `noisefloor:panel scenes=\"A; B\" spp=16 show=\"mc; rdfc; reference\" \
+    shrink=2` makes panel.png from the images of DIR. Without a README one is begun.")]
+pub struct Record {
+    /// Folder of a study that was run, or a recording
+    pub dir: PathBuf,
+    /// Folder of the recording
+    pub to: PathBuf,
 }
 
 /// `noisefloor methods`.

@@ -16,6 +16,7 @@ mod methods;
 mod out;
 mod output;
 mod progress;
+mod record;
 mod render;
 mod report;
 mod run;
@@ -50,6 +51,7 @@ pub fn main_with(extra: &[Entry]) -> ExitCode {
         args::Verb::Compare(verb) => compare::run(&verb),
         args::Verb::Convert(verb) => convert::run(&verb),
         args::Verb::Report(verb) => report::run(&verb),
+        args::Verb::Record(verb) => record::run(&verb),
         args::Verb::Methods(verb) => methods::run(&context, &verb),
         args::Verb::Scenes(verb) => scenes::run(&verb),
     };

@@ -4,12 +4,14 @@ use std::io::ErrorKind;
 
 use anyhow::{anyhow, bail};
 use noisefloor_harness::HarnessError;
+use noisefloor_harness::summary::Summary;
 use noisefloor_io::IoError;
 use noisefloor_report::ReportOptions;
 
 use crate::args::Report;
 use crate::exit::Exit;
-use crate::out::{Out, say};
+use crate::out::{Out, note, say};
+use crate::table::unfinished;
 
 pub fn run(args: &Report) -> anyhow::Result<Exit> {
     if !(args.viewer_budget.is_finite() && args.viewer_budget >= 0.0) {
@@ -21,8 +23,22 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
     let options =
         ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
     let files = noisefloor_report::write_report_into(&args.dir, out, &summary, &options)?;
+    if summary.recorded {
+        say!(Out::Stdout, "images are not kept in a recorded study; `{}` makes them", summary.study.command)?;
+    }
     say!(Out::Stdout, "report: {}", files.index.display())?;
-    Ok(Exit::Done)
+    Ok(unfinished_or_done(&summary))
+}
+
+/// What a script must know of a report: whether its study is finished. Tells what is missing on standard error.
+pub fn unfinished_or_done(summary: &Summary) -> Exit {
+    match unfinished(summary) {
+        Some(line) => {
+            note!("noisefloor: {line}");
+            Exit::Unfinished
+        }
+        None => Exit::Done,
+    }
 }
 
 /// Names the way out where a study's folder cannot be written.

@@ -15,6 +15,7 @@ use crate::context::{Context, default_cache, use_threads};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::out::{Out, note, say};
+use crate::report::unfinished_or_done;
 use crate::run::fit::{Kind, check_options, check_study};
 use crate::run::watch::Watcher;
 use crate::shot::{is_gltf, shot, shot_command};
@@ -53,7 +54,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     let shown = show(args, &summary, &files);
     fail_on_violations(&summary)?;
     shown?;
-    Ok(Exit::Done)
+    Ok(unfinished_or_done(&summary))
 }
 
 /// The tables, or with `--quiet` what must not be missed.

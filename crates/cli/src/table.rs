@@ -1,25 +1,24 @@
 //! Plain text tables, columns aligned by character count.
 
-use noisefloor_harness::summary::{Interval, PaperResult, Summary};
+use noisefloor_harness::summary::{CellSummary, Interval, PaperResult, SceneSummary, Summary};
 
 /// The short table that ends a run: the primary metric of every row at the top level of every scene.
 pub fn summary_table(summary: &Summary) -> String {
     let metric = &summary.study.primary_metric;
     let name = summary.study.metrics.iter().find(|m| m.id == *metric).map_or(metric.as_str(), |m| &m.name);
     let mut out = String::new();
+    out.extend(unfinished(summary).map(|line| format!("! {line}\n")));
     for finding in &summary.findings {
         out.push_str(&format!("! {finding}\n"));
     }
     for warning in &summary.warnings {
         out.push_str(&format!("! {warning}\n"));
     }
+    let mut marked = false;
     for scene in &summary.scenes {
         let levels = summary.cells.iter().filter(|c| c.scene == scene.id).map(|c| c.spp);
         let (Some(low), Some(top)) = (levels.clone().min(), levels.max()) else { continue };
-        out.push_str(&format!(
-            "\n{}, {}×{}, reference {} samples per pixel ({:.0} × the top level)\n",
-            scene.id, scene.width, scene.height, scene.reference.spp, scene.reference.ratio_to_top
-        ));
+        out.push_str(&format!("\n{}, {}×{}, {}\n", scene.id, scene.width, scene.height, reference(scene)));
         let shown = if low == top { vec![top] } else { vec![low, top] };
         let heads = shown.iter().flat_map(|spp| [format!("{name} at {spp}"), "of mc".into()]);
         let mut rows: Vec<Vec<String>> =
@@ -29,20 +28,29 @@ pub fn summary_table(summary: &Summary) -> String {
                 summary.cells.iter().find(|c| c.scene == scene.id && c.spp == spp && c.label == method.label)
             };
             if shown.iter().all(|spp| cell(*spp).is_none()) {
-                rows.push(vec![method.label.clone(), "skipped".into()]);
+                rows.push(vec![method.label.clone(), why_absent(summary, scene, &method.label).into()]);
                 continue;
             }
-            let value = |c: Option<&noisefloor_harness::summary::CellSummary>, ratio: bool| {
-                let of =
-                    c.and_then(|c| if ratio { c.ratio_to_mc.get(metric) } else { c.metrics.get(metric) });
-                of.map_or_else(|| "–".into(), with_interval)
+            let value = |c: Option<&CellSummary>| {
+                let of = c.and_then(|c| c.metrics.get(metric)).map(with_interval);
+                let mark = if c.is_some_and(|c| c.left_out.is_some()) { "*" } else { "" };
+                of.map_or_else(|| "–".into(), |text| format!("{text}{mark}"))
             };
-            let values = shown.iter().flat_map(|spp| [value(cell(*spp), false), value(cell(*spp), true)]);
+            let ratio = |c: Option<&CellSummary>| {
+                c.and_then(|c| c.ratio_to_mc.get(metric)).map_or_else(|| "–".into(), ratio_with_interval)
+            };
+            marked |= shown.iter().any(|spp| cell(*spp).is_some_and(|c| c.left_out.is_some()));
+            let values = shown.iter().flat_map(|spp| [value(cell(*spp)), ratio(cell(*spp))]);
             let time = cell(top).and_then(|c| c.denoise_seconds);
             let time = time.map_or_else(|| "–".into(), |s| format!("{:.1} ms", s * 1e3));
             rows.push(std::iter::once(method.label.clone()).chain(values).chain([time]).collect());
         }
         out.push_str(&aligned(&rows));
+    }
+    if marked {
+        out.push_str(
+            "\n* not ranked, for the reason given above: over other frames or fewer pixels than the others\n",
+        );
     }
     let skipped: Vec<String> = summary
         .skipped
@@ -53,6 +61,33 @@ pub fn summary_table(summary: &Summary) -> String {
         out.push_str(&format!("\n{}\n", skipped.join("\n")));
     }
     out
+}
+
+/// `unfinished: 12 of 18 cells are finished; missing: …`, if so.
+pub fn unfinished(summary: &Summary) -> Option<String> {
+    let progress = summary.progress.as_ref().filter(|progress| !progress.complete())?;
+    Some(format!("unfinished: {progress}"))
+}
+
+/// The reference in words, and how long it is beside the frames.
+fn reference(scene: &SceneSummary) -> String {
+    let reference = &scene.reference;
+    let name = reference.name();
+    match reference.spp {
+        0 => name,
+        _ if reference.is_exact() => name,
+        _ => format!("{name} ({:.0} × the top level)", reference.ratio_to_top),
+    }
+}
+
+/// Why a row has no numbers at the levels shown.
+fn why_absent(summary: &Summary, scene: &SceneSummary, label: &str) -> &'static str {
+    let ended = summary.skipped.iter().find(|s| s.scene == scene.id && s.label == label);
+    match ended.map(|s| s.status.as_str()) {
+        Some("failed") => "failed",
+        Some(_) => "skipped",
+        None => "did not run",
+    }
 }
 
 /// Our ratios beside the source work's; empty if the study compares nothing with a source.
@@ -70,12 +105,17 @@ pub fn paper_table(summary: &Summary) -> String {
     aligned(&rows)
 }
 
-/// Ratios have lopsided intervals: both ends.
 fn ratio(r: &PaperResult) -> String {
-    match r.ours.as_ref().map(|ours| (number(ours.value), ours.low, ours.high)) {
-        Some((value, Some(low), Some(high))) => format!("{value} [{}, {}]", number(low), number(high)),
-        Some((value, ..)) => value,
-        None => "–".into(),
+    r.ours.as_ref().map_or_else(|| "–".into(), ratio_with_interval)
+}
+
+/// Ratios have lopsided intervals, which are those of their logarithms: both ends. Certain ones stand alone.
+fn ratio_with_interval(interval: &Interval) -> String {
+    match (interval.low, interval.high) {
+        (Some(low), Some(high)) if low < high => {
+            format!("{} [{}, {}]", number(interval.value), number(low), number(high))
+        }
+        _ => number(interval.value),
     }
 }
 
@@ -86,11 +126,19 @@ fn words(r: &PaperResult) -> String {
 fn with_interval(interval: &Interval) -> String {
     match (interval.below, interval.low, interval.high) {
         (Some(limit), ..) => format!("< {}", number(limit)),
+        // Cut at zero, or of a logarithm: ± would promise an end that is not there.
+        (None, Some(low), Some(high)) if lopsided(interval.value, low, high) => {
+            format!("{} [{}, {}]", number(interval.value), number(low), number(high))
+        }
         (None, Some(low), Some(high)) => {
             format!("{} ± {}", number(interval.value), number(0.5 * (high - low)))
         }
         _ => number(interval.value),
     }
+}
+
+fn lopsided(value: f64, low: f64, high: f64) -> bool {
+    ((high - value) - (value - low)).abs() > 0.02 * (high - low)
 }
 
 /// Aligns rows: the first column to the left, the others to the right.
@@ -171,6 +219,25 @@ mod tests {
             (ratio(&result).as_str(), words(&result).as_str()),
             ("–", "no number: `b` did not run here")
         );
+    }
+
+    #[test]
+    fn lopsided_intervals_show_both_ends_and_others_their_half_width() {
+        let interval = |value: f64, low: f64, high: f64| Interval {
+            value,
+            standard_error: None,
+            low: Some(low),
+            high: Some(high),
+            confidence: 0.95,
+            n: 4,
+            source: noisefloor_harness::summary::Source::Replicates,
+            below: None,
+        };
+        assert_eq!(ratio_with_interval(&interval(0.38, 0.1, 1.4)), "0.3800 [0.1000, 1.400]");
+        assert_eq!(ratio_with_interval(&interval(1.0, 1.0, 1.0)), "1.000", "certain");
+        assert_eq!(with_interval(&interval(0.5, 0.4, 0.6)), "0.5000 ± 0.1000");
+        // Cut at zero: 0.38 ± 0.63 would promise a negative error.
+        assert_eq!(with_interval(&interval(0.38, 0.0, 1.01)), "0.3800 [0, 1.010]");
     }
 
     #[test]

@@ -13,8 +13,10 @@ mod flicker;
 mod index;
 mod number;
 mod paper;
+mod progress;
 mod scenes;
 mod series;
+mod standing;
 mod warnings;
 
 use std::path::Path;
@@ -22,6 +24,7 @@ use std::path::Path;
 use noisefloor_frame::{Finding, FindingKind, sorted_findings};
 
 use crate::context::Context;
+use crate::flicker::Sequences;
 use crate::machine;
 use crate::record::Record;
 use crate::study::Study;
@@ -30,15 +33,25 @@ use index::Index;
 
 pub use warnings::violations;
 
-/// Analyses the finished cells of a study, however many there are; their images are looked for in its folder.
-pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root: &Path) -> Summary {
-    let sequences = crate::flicker::measure(study, context, records, root);
+/// Analyses the finished cells of a study, however many there are; their images are looked for in its folder, unless
+/// it is a recorded one, which has none.
+pub(crate) fn analyse(
+    study: &Study,
+    context: &Context,
+    records: &[Record],
+    root: &Path,
+    recorded: bool,
+) -> Summary {
+    let sequences = match recorded {
+        true => recorded_sequences(study, context),
+        false => crate::flicker::measure(study, context, records, root),
+    };
     let index = Index::new(study, context, records);
     let mut summary = Summary {
         schema: SUMMARY_SCHEMA,
         study: info(study, context, &index),
         environment: Environment { date: machine::now(), ..context.environment.clone() },
-        scenes: scenes::scenes(&index, records),
+        scenes: scenes::scenes(&index, records, recorded),
         methods: context.methods.iter().map(|row| row.summary.clone()).collect(),
         cells: cells::cells(&index),
         skipped: index.skipped(),
@@ -50,6 +63,8 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
         estimates: estimates::estimates(&index),
         equal_time: equal_time::equal_time(&index),
         flicker: flicker::flicker(&index, &sequences.measured),
+        progress: progress::progress(study, context, records),
+        recorded,
         findings: Vec::new(),
         warnings: Vec::new(),
     };
@@ -58,6 +73,18 @@ pub(crate) fn analyse(study: &Study, context: &Context, records: &[Record], root
     summary.warnings.extend(sequences.problems);
     summary.warnings.extend(builds::warning(records));
     summary
+}
+
+/// What a recording keeps of its sequences; what it does not is told, because measuring takes images.
+fn recorded_sequences(study: &Study, context: &Context) -> Sequences {
+    let measured = context.flicker.clone();
+    let absent = |name: &&str| !measured.iter().any(|flicker| flicker.sequence == *name);
+    let names: Vec<&str> = study.sequences().into_iter().map(|(name, _)| name).collect();
+    let problem = |name: &str| {
+        format!("sequence {name}: flicker is left out: it takes images, and this recording was made without")
+    };
+    let problems = names.into_iter().filter(absent).map(problem).collect();
+    Sequences { measured, problems }
 }
 
 /// What was found about scenes, frames, outputs and the program itself, once each.

@@ -6,6 +6,7 @@ use noisefloor_frame::{Finding, Sampling};
 use serde::{Deserialize, Serialize};
 
 use crate::cache::Key;
+use crate::flicker::Flicker;
 use crate::store::Files;
 use crate::summary::{Environment, MethodSummary};
 
@@ -15,9 +16,24 @@ pub(crate) struct Context {
     pub(crate) command: String,
     pub(crate) environment: Environment,
     pub(crate) methods: Vec<Row>,
-    /// Each kept in a file of its own, from the moment that its cells begin.
-    #[serde(skip)]
+    /// Levels and replicates of every scene, also of those that never began: a folder's frames can be listed only where
+    /// the folder is.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) plan: Vec<PlannedScene>,
+    /// Each kept in a file of its own, from the moment that its cells begin; all together here in a recorded study.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(crate) scenes: Vec<SceneContext>,
+    /// What was measured over the frames of sequences, in a recorded study: it takes images.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub(crate) flicker: Vec<Flicker>,
+}
+
+/// Frames that a run means to denoise on a scene.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct PlannedScene {
+    pub(crate) id: String,
+    /// Level to replicates.
+    pub(crate) replicates: BTreeMap<u32, u32>,
 }
 
 /// A row as it was run.

@@ -174,6 +174,16 @@ pub enum HarnessError {
         /// What is wrong.
         message: String,
     },
+    /// A folder is neither that of a study nor a recorded one.
+    #[error("{} has no {missing}: {hint}", path.display())]
+    NotAStudy {
+        /// The folder.
+        path: PathBuf,
+        /// File that it would have.
+        missing: String,
+        /// What it may be instead, and what to do.
+        hint: String,
+    },
     /// The observer asked to stop. Everything finished is kept.
     #[error("stopped; finished cells are kept, run the same command again to continue")]
     Cancelled,
@@ -184,6 +194,11 @@ impl HarnessError {
     pub(crate) fn io(action: &'static str, path: impl Into<PathBuf>) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.into();
         move |source| Self::Io { action, path, source }
+    }
+
+    /// A kept file that cannot be understood or written.
+    pub(crate) fn kept(path: &std::path::Path, message: impl ToString) -> Self {
+        Self::Kept { path: path.into(), line: None, message: message.to_string() }
     }
 
     /// Whether nothing is wrong but the observer's wish to stop.

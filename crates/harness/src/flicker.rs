@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use noisefloor_io::{IoError, ReadOptions, read_color, read_reference};
+use serde::{Deserialize, Serialize};
 
 use crate::context::Context;
 use crate::record::{Outcome, Record};
@@ -15,7 +16,7 @@ use over_time::Truth;
 pub(crate) use over_time::{Corrected, OverTime};
 
 /// One row at one level in one replicate of a sequence.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Flicker {
     pub(crate) sequence: String,
     pub(crate) spp: u32,

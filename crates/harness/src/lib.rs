@@ -23,6 +23,7 @@ mod observer;
 mod plan;
 mod reanalyse;
 pub mod record;
+mod recorded;
 mod run;
 mod source;
 mod store;
@@ -34,6 +35,7 @@ pub use error::{HarnessError, Place};
 pub use memory::{MemoryEstimate, memory_estimate};
 pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::{reanalyse, reanalyse_into};
+pub use recorded::{analysis_of, record as record_study};
 pub use run::{StudyRun, run};
 pub use study::{
     AdaptiveFrames, BuiltinStudy, FIGURES, Family, Maps, MethodRow, PaperComparison, PaperRatio,

@@ -25,12 +25,21 @@ pub(crate) fn info(id: &str) -> Option<MetricInfo> {
         lower_is_better: metric.lower_is_better,
         unit: metric.unit.into(),
         reference_noise_removed: metric.reference_noise_removed,
+        order: metric.order,
     })
 }
 
 /// 2 for squared errors, 1 for their roots, `None` where plain Monte Carlo has no fixed rate.
 pub(crate) fn order(id: &str) -> Option<u32> {
     METRICS.iter().find(|metric| metric.id == id)?.order
+}
+
+/// The squared error that a metric is, or is the root of; `None` where plain Monte Carlo has no fixed rate.
+pub(crate) fn squared(id: &str) -> Option<&str> {
+    match order(id)? {
+        2 => Some(id),
+        _ => (id == "rmse").then_some("mse"),
+    }
 }
 
 /// Whether smaller is better; `false` for an unknown metric.

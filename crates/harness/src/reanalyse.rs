@@ -12,6 +12,7 @@ use crate::context::{Context, SceneContext};
 use crate::error::HarnessError;
 use crate::fingerprint::measuring;
 use crate::record::Record;
+use crate::recorded::KeptStudy;
 use crate::source::PixelClasses;
 use crate::store::{Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
 use crate::study::Study;
@@ -41,6 +42,19 @@ pub fn reanalyse(dir: &Path, recompute: bool) -> Result<Summary, HarnessError> {
 /// As [`reanalyse`]; [`HarnessError::Io`] also if `out` cannot be made or written.
 pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary, HarnessError> {
     let layout = Layout::new(dir);
+    if let Some(kept) = KeptStudy::of_recording(dir)? {
+        if recompute {
+            return Err(HarnessError::NotAStudy {
+                path: dir.to_owned(),
+                missing: "images".into(),
+                hint: "a recorded study keeps numbers only, and metrics cannot be computed again".into(),
+            });
+        }
+        let summary = analyse(&kept.study, &kept.context, &kept.records, dir, true);
+        std::fs::create_dir_all(out).map_err(HarnessError::io("make folder", out))?;
+        write_json(&Layout::new(out).summary(), &summary)?;
+        return Ok(summary);
+    }
     // First of all, so that a folder that is none of ours stays as it is.
     let study: Study = read_json(&layout.study())?;
     std::fs::create_dir_all(out).map_err(HarnessError::io("make folder", out))?;
@@ -74,7 +88,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
         record.image.take_if(|path| damaged.contains(path));
         record.diagnostics.retain(|_, path| !damaged.contains(path));
     }
-    let mut summary = analyse(&study, &context, &all, dir);
+    let mut summary = analyse(&study, &context, &all, dir, false);
     summary.findings = sorted_findings(kept.findings.into_iter().chain(summary.findings));
     write_json(&Layout::new(out).summary(), &summary)?;
     Ok(summary)

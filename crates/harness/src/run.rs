@@ -12,7 +12,7 @@ use noisefloor_denoiser::Registry;
 
 use crate::analysis::analyse;
 use crate::cache::{Cache, Key, seed_of};
-use crate::context::{Context, Row as RowContext};
+use crate::context::{Context, PlannedScene, Row as RowContext};
 use crate::error::HarnessError;
 use crate::machine;
 use crate::memory::check_memory;
@@ -109,7 +109,7 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     order(&mut records, study, &plan)?;
 
     request.observer.stage(&Stage::Analysis);
-    let summary = analyse(study, &context, records.all(), layout.root());
+    let summary = analyse(study, &context, records.all(), layout.root(), false);
     write_json(&layout.summary(), &summary)?;
     Ok(summary)
 }
@@ -128,7 +128,15 @@ fn begin(
         _ => machine::environment(&request.simd),
     };
     let methods = plan.rows.iter().map(describe).collect();
-    let context = Context { command: request.command.clone(), environment, methods, scenes: Vec::new() };
+    let planned = |scene: &Scene| PlannedScene { id: scene.id.clone(), replicates: scene.replicates() };
+    let context = Context {
+        command: request.command.clone(),
+        environment,
+        methods,
+        plan: plan.scenes.iter().map(planned).collect(),
+        scenes: Vec::new(),
+        flicker: Vec::new(),
+    };
     write_json(&layout.context(), &context)?;
     Ok(context)
 }

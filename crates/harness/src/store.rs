@@ -49,6 +49,11 @@ impl Layout {
         self.root.join("results.damaged.jsonl")
     }
 
+    /// The same in a recorded study, compressed.
+    pub(crate) fn packed_records(&self) -> PathBuf {
+        self.root.join("results.jsonl.gz")
+    }
+
     /// The study as it was resolved.
     pub(crate) fn study(&self) -> PathBuf {
         self.root.join("study.json")

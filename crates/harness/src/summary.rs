@@ -1,5 +1,7 @@
 //! The analysis of a study (`summary.json`): everything a report shows, each number with its uncertainty.
 
+mod progress;
+
 use std::collections::BTreeMap;
 
 use noisefloor_frame::Finding;
@@ -7,6 +9,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::study::RowFrames;
+
+pub use progress::{Missing, Progress};
 
 /// Version of the summary format.
 pub const SUMMARY_SCHEMA: u32 = 1;
@@ -81,6 +85,12 @@ pub struct Summary {
     /// Errors that change from frame to frame, per sequence × spp × row.
     #[serde(default)]
     pub flicker: Vec<FlickerSummary>,
+    /// How far the study got; absent where that is not known, as in summaries of earlier programs.
+    #[serde(default)]
+    pub progress: Option<Progress>,
+    /// Whether it was made from a recorded study, which keeps no images.
+    #[serde(default)]
+    pub recorded: bool,
     /// What was found about the inputs, most serious first.
     #[serde(default)]
     pub findings: Vec<Finding>,
@@ -131,6 +141,9 @@ pub struct MetricInfo {
     pub unit: String,
     /// Whether the reference's noise is taken out.
     pub reference_noise_removed: bool,
+    /// 2 for squared errors, 1 for their roots; absent where plain Monte Carlo has no rate.
+    #[serde(default)]
+    pub order: Option<u32>,
 }
 
 /// Machine, program and load.
@@ -177,7 +190,7 @@ pub struct SceneSummary {
     pub reference: ReferenceSummary,
     /// Pixels per class.
     pub classes: BTreeMap<String, u64>,
-    /// Image of the reference, relative to the study's folder.
+    /// Image of the reference, relative to the study's folder; empty in a recorded study, which has no images.
     pub reference_image: String,
     /// Seconds to render one frame, by spp: median over replicates, and threads used.
     pub render_seconds: BTreeMap<u32, f64>,
@@ -190,8 +203,11 @@ pub struct SceneSummary {
 /// What stands for the truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ReferenceSummary {
-    /// Samples per pixel; 0 for exact truth.
+    /// Samples per pixel; 0 for exact truth, and where it is unknown.
     pub spp: u64,
+    /// Whether it is the exact truth.
+    #[serde(default)]
+    pub exact: bool,
     /// Independent parts (0: unknown or exact).
     pub parts: u32,
     /// Sampling, or `exact`.
@@ -207,6 +223,24 @@ pub struct ReferenceSummary {
     /// Metric id to the largest bias by the reference's noise that was estimated and taken out of a value on this scene,
     /// relative to that value (relative metrics).
     pub bias: BTreeMap<String, f64>,
+}
+
+impl ReferenceSummary {
+    /// Whether it is the exact truth, also in summaries of programs that told it by the sampling only.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.exact || self.sampling == "exact"
+    }
+
+    /// `exact truth`, `reference of 4096 samples per pixel`, or that their number is unknown.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match self.spp {
+            _ if self.is_exact() => "exact truth".into(),
+            0 => "reference of an unknown number of samples per pixel".into(),
+            spp => format!("reference of {spp} samples per pixel"),
+        }
+    }
 }
 
 /// A row of the study.
@@ -261,8 +295,8 @@ pub struct CellSummary {
     pub denoise_seconds_range: Option<[f64; 2]>,
     /// Median seconds of rendering the input.
     pub render_seconds: Option<f64>,
-    /// How many times more samples plain Monte Carlo needs for the same error (squared-error metrics only): metric id
-    /// to multiplier.
+    /// How many times more samples plain Monte Carlo needs for the same error: metric id to multiplier, for squared
+    /// errors and their roots; none for a row that is left out of the ranking.
     pub equal_error: BTreeMap<String, Interval>,
     /// Whether the multiplier reaches beyond the rendered levels.
     pub equal_error_extrapolated: BTreeMap<String, bool>,
@@ -272,8 +306,22 @@ pub struct CellSummary {
     pub enclosure_worst_ratio: Option<f64>,
     /// Named numbers of the method, mean over replicates.
     pub figures: BTreeMap<String, f64>,
-    /// Replicates that ran.
+    /// Replicates behind these numbers: those that all ranked rows of the level have; all of its own for a row that is
+    /// left out of the ranking.
     pub replicates: u32,
+    /// Replicates that the study asks for; 0 where that is not known.
+    #[serde(default)]
+    pub planned_replicates: u32,
+    /// Pixels that the metrics are over, the fewest of a replicate; 0 where that is not known.
+    #[serde(default)]
+    pub pixels: u64,
+    /// Pixels of the whole image; 0 where that is not known.
+    #[serde(default)]
+    pub pixels_of: u64,
+    /// Why the row takes no part in the ranking and is never called best: it did not run on all frames that other rows
+    /// ran on, or gave values that are not finite.
+    #[serde(default)]
+    pub left_out: Option<String>,
     /// Input pixels that were not finite, over all replicates.
     pub invalid_input_pixels: u64,
     /// Output values that were not finite, over all replicates.
@@ -344,7 +392,7 @@ pub struct BoundSummary {
     pub missed: f64,
     /// Mean of |D−μ| over the bound: how loose it is.
     pub mean_ratio: Option<f64>,
-    /// `holds` (interval below or reaching α), `fails` (interval above α).
+    /// `holds` (interval below or reaching α), `fails` (interval above α), `undecided` without an interval.
     pub verdict: String,
     /// Why the number must be read with care, if so.
     pub mark: Option<String>,
@@ -376,7 +424,7 @@ pub struct PaperResult {
     /// below 1, `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without
     /// an interval, `no number` without a ratio.
     pub verdict: String,
-    /// Why there is no ratio.
+    /// Why there is no ratio, or no verdict.
     #[serde(default)]
     pub reason: Option<String>,
 }

@@ -272,3 +272,74 @@ fn a_study_that_is_only_read_is_reported_into_another_folder_and_rows_run_again(
     let told = refused(at, &[&run[..], &["--again", "virtual-flsh"]].concat());
     assert!(told.contains("virtual-flsh") && told.contains("mc, virtual-flash"), "{told}");
 }
+
+const TWO_ROWS: &str = "name = \"tiny\"\nspp = [4, 8]\nreplicates = 2\nwidth = 16\nheight = 12\ntiming = { warmup = 0, runs = 1 }\n\
+    [[scene]]\nid = \"ramp\"\nsynthetic = { image = \"ramps\", law = \"gaussian\", width = 16, height = 12 }\n\
+    [[scene]]\nid = \"steps\"\nsynthetic = { image = \"edges\", law = \"gaussian\", width = 16, height = 12 }\n\
+    [[method]]\nid = \"mc\"\n[[method]]\nid = \"guarded(mc)\"\n";
+
+#[test]
+fn the_table_of_a_run_names_exact_truth_and_shows_both_ends_of_ratios() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), TWO_ROWS.replace("guarded(mc)", "virtual-flash")).unwrap();
+    let output = noisefloor(at, &["run", "study.toml", "--out", "results", "--cache", "cache"]);
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{told}");
+    assert!(told.contains("ramp, 16×12, exact truth\n"), "{told}");
+    assert!(!told.contains("0 samples per pixel") && !told.contains("unfinished"), "{told}");
+    let row = told.lines().find(|line| line.starts_with("virtual-flash")).unwrap();
+    // Errors may be cut at zero and have both ends, too.
+    assert!(row.matches('[').count() >= 2, "two ratios, each with both ends: {row}");
+}
+
+#[test]
+fn a_report_of_an_unfinished_study_says_so_and_ends_with_a_code_of_its_own() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), TWO_ROWS).unwrap();
+    done(at, &["run", "study.toml", "--quiet", "--out", "results", "--cache", "cache"]);
+    // As if the run had been stopped in the first scene.
+    let records = at.join("results/results.jsonl");
+    let text = std::fs::read_to_string(&records).unwrap();
+    let kept: Vec<&str> = text.lines().take(6).collect();
+    std::fs::write(&records, kept.join("\n") + "\n").unwrap();
+    std::fs::remove_file(at.join("results/reference/steps.json")).unwrap();
+    let output = noisefloor(at, &["report", "results"]);
+    assert_eq!(output.status.code(), Some(3));
+    let told = String::from_utf8(output.stderr).unwrap();
+    for part in
+        ["unfinished: 6 of 16 cells", "all of scene steps (8 cells)", "ramp at 8 spp, replicate 2 (2 cells)"]
+    {
+        assert!(told.contains(part), "{part:?} is missing: {told}");
+    }
+    let page = std::fs::read_to_string(at.join("results/report/index.html")).unwrap();
+    assert!(page.contains("Unfinished: 6 of 16 cells") && !page.contains("Every method ran on every frame"));
+    let summary: Value =
+        serde_json::from_slice(&std::fs::read(at.join("results/summary.json")).unwrap()).unwrap();
+    assert_eq!((&summary["progress"]["planned"], &summary["progress"]["finished"]), (&16.into(), &6.into()));
+    done(at, &["run", "study.toml", "--quiet", "--out", "results", "--cache", "cache"]);
+    done(at, &["report", "results"]);
+}
+
+#[test]
+fn a_study_is_recorded_and_opens_again_without_its_images() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("study.toml"), TWO_ROWS).unwrap();
+    done(at, &["run", "study.toml", "--quiet", "--out", "results", "--cache", "cache"]);
+    let told = done(at, &["record", "results", "recorded"]);
+    assert!(told.contains("recorded: recorded ("), "{told}");
+    let readme = std::fs::read_to_string(at.join("recorded/README.md")).unwrap();
+    assert!(readme.contains("| `guarded(mc)` |") && readme.contains("All 16 cells"), "{readme}");
+    std::fs::remove_dir_all(at.join("results")).unwrap();
+    let told = done(at, &["report", "recorded", "--out", "again"]);
+    assert!(told.contains("images are not kept"), "{told}");
+    assert!(at.join("again/summary.json").is_file());
+    let page = std::fs::read_to_string(at.join("again/report/index.html")).unwrap();
+    assert!(page.contains("Made from a recorded study") && !page.contains("Not readable"));
+    let kept: Vec<_> =
+        std::fs::read_dir(at.join("recorded")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    assert_eq!(kept.len(), 4, "{kept:?}");
+    assert!(refused(at, &["report", "again"]).contains("study.json"), "a report is no study");
+}

@@ -25,6 +25,22 @@ pub enum ReportError {
         /// Newest version understood.
         known: u32,
     },
+    /// A marker of a README cannot be obeyed.
+    #[error("README.md, line {line}: {message}")]
+    Readme {
+        /// Line from 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+    /// A README cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
     /// The page's template failed.
     #[error("cannot fill the page's template: {0}")]
     Template(#[from] minijinja::Error),

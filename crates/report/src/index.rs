@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use noisefloor_harness::RowFrames;
-use noisefloor_harness::summary::{CellSummary, Comparison, MetricInfo, SceneSummary, Summary};
+use noisefloor_harness::summary::{CellSummary, Comparison, MetricInfo, Progress, SceneSummary, Summary};
 
 use crate::plot::style::Looks;
 
@@ -70,7 +70,8 @@ impl<'a> Index<'a> {
         spp.get(spp.len() / 2).copied()
     }
 
-    /// Rows that ran at a level, best first: the comparison's ranking, else by the value itself.
+    /// Ranked rows of a level, best first: the comparison's ranking, else by the value itself. Rows that are left out of
+    /// it are not among them.
     pub(crate) fn ranking(&self, scene: &str, spp: u32, metric: &str) -> Vec<&'a str> {
         let lower = self.metric(metric).is_none_or(|m| m.lower_is_better);
         let mut rows: Vec<(&'a str, f64)> = self
@@ -78,7 +79,8 @@ impl<'a> Index<'a> {
             .methods
             .iter()
             .filter_map(|m| {
-                let value = self.cell(scene, spp, &m.label)?.metrics.get(metric)?.value;
+                let cell = self.cell(scene, spp, &m.label).filter(|cell| cell.left_out.is_none())?;
+                let value = cell.metrics.get(metric)?.value;
                 Some((m.label.as_str(), if lower { value } else { -value }))
             })
             .collect();
@@ -91,9 +93,17 @@ impl<'a> Index<'a> {
         rows.into_iter().map(|(label, _)| label).collect()
     }
 
-    /// Whether a level of a scene has one replicate only, so that no rows can be told apart there.
+    /// Rows that have numbers at a level and are left out of its ranking, with the reason.
+    pub(crate) fn left_out(&self, scene: &str, spp: u32) -> Vec<(&'a CellSummary, &'a str)> {
+        let rows = self.summary.methods.iter().filter_map(|m| self.cell(scene, spp, &m.label));
+        rows.filter_map(|cell| Some((cell, cell.left_out.as_deref()?))).collect()
+    }
+
+    /// Whether a level of a scene has so few replicates behind its ranking that no rows can be told apart there.
     pub(crate) fn single(&self, scene: &str, spp: u32) -> bool {
-        self.scene(scene).and_then(|s| s.replicates.get(&spp)) == Some(&1)
+        let here = self.summary.methods.iter().filter_map(|m| self.cell(scene, spp, &m.label));
+        let counts = here.filter(|cell| cell.left_out.is_none()).map(|cell| cell.replicates);
+        self.scene(scene).and_then(|s| s.replicates.get(&spp)) == Some(&1) || counts.max() == Some(1)
     }
 
     /// Rows other than `label` that the replicates cannot tell from the best; none where they tell nothing.
@@ -101,6 +111,27 @@ impl<'a> Index<'a> {
         let group = self.comparison(scene, spp, metric).filter(|_| !self.single(scene, spp));
         let others = group.into_iter().flat_map(|c| &c.best_group).map(String::as_str);
         others.filter(|l| *l != label).collect()
+    }
+
+    /// Whether every cell that the study asks for ended; also where that is not known, which is told elsewhere.
+    pub(crate) fn complete(&self) -> bool {
+        self.summary.progress.as_ref().is_none_or(Progress::complete)
+    }
+
+    /// The same for a level of a scene.
+    pub(crate) fn complete_at(&self, scene: &str, spp: u32) -> bool {
+        self.summary.progress.as_ref().is_none_or(|progress| progress.complete_at(scene, spp))
+    }
+
+    /// Scenes that the study asks for at a level, begun or not.
+    pub(crate) fn planned_scenes(&self, spp: u32) -> usize {
+        let begun = self.summary.scenes.iter().filter(|s| s.replicates.contains_key(&spp));
+        let mut ids: Vec<&str> = begun.map(|s| s.id.as_str()).collect();
+        let missing = self.summary.progress.iter().flat_map(|p| &p.missing);
+        ids.extend(missing.filter(|m| m.spp.contains(&spp)).map(|m| m.scene.as_str()));
+        ids.sort_unstable();
+        ids.dedup();
+        ids.len()
     }
 
     pub(crate) fn scene(&self, id: &str) -> Option<&'a SceneSummary> {

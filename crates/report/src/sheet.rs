@@ -45,6 +45,25 @@ pub fn contact_sheet(entries: &[SheetEntry], columns: usize) -> Result<Vec<u8>, 
         .map_err(|source| ReportError::Png { name: "contact sheet".into(), source })
 }
 
+/// Lays out rows of named pictures, as they are shown, and encodes them as an 8-bit RGB PNG. Columns are as wide as the
+/// widest picture, rows as high as the highest.
+pub(crate) fn panel(rows: &[Vec<(String, Image)>]) -> Result<Vec<u8>, ReportError> {
+    let all = || rows.iter().flatten().map(|(_, image)| image);
+    let width = all().map(Image::width).max().unwrap_or(0);
+    let height = all().map(Image::height).max().unwrap_or(0);
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let (cell_width, cell_height) = (width + GAP / 2, height + LINE);
+    let mut sheet = Sheet::new(columns * cell_width, rows.len() * cell_height);
+    for (k, (title, image), row) in
+        rows.iter().enumerate().flat_map(|(row, of)| of.iter().enumerate().map(move |(k, e)| (k, e, row)))
+    {
+        sheet.text(title, k * cell_width + 2, row * cell_height + LINE / 2);
+        sheet.image(image, k * cell_width, row * cell_height + LINE, (width, height));
+    }
+    encode_rgb(&sheet.rgb, sheet.width, sheet.height, None)
+        .map_err(|source| ReportError::Png { name: "panel".into(), source })
+}
+
 /// White paper, interleaved RGB.
 struct Sheet {
     width: usize,

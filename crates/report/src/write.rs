@@ -113,7 +113,7 @@ pub(crate) fn write_from(
     fs::create_dir_all(&folder).map_err(ReportError::write(&folder))?;
     let index = Index::new(summary);
 
-    let mut plots = Plots { folder, png: options.png, glyphs: BTreeSet::new(), files: Vec::new() };
+    let mut plots = Plots::new(folder, options.png);
     let sets = plots.draw_all(&index)?;
     plots.remove_stale()?;
 
@@ -129,7 +129,7 @@ pub(crate) fn write_from(
     })
 }
 
-fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
     Ok(noisefloor_io::write_atomically(path, |out| out.write_all(bytes))?)
 }
 
@@ -154,14 +154,33 @@ struct PlotSets {
     estimates: Vec<Plot>,
 }
 
-struct Plots {
+pub(crate) struct Plots {
     folder: PathBuf,
     png: bool,
+    /// Names of the plots to write; all of them if absent.
+    only: Option<BTreeSet<String>>,
     glyphs: BTreeSet<crate::plot::svg::GlyphKey>,
     files: Vec<PathBuf>,
 }
 
 impl Plots {
+    fn new(folder: PathBuf, png: bool) -> Self {
+        Self { folder, png, only: None, glyphs: BTreeSet::new(), files: Vec::new() }
+    }
+
+    /// Writes the plots of these names as SVG into a folder; gives the files that were written.
+    pub(crate) fn write_some(
+        index: &Index<'_>,
+        folder: &Path,
+        names: &BTreeSet<String>,
+    ) -> Result<Vec<PathBuf>, ReportError> {
+        fs::create_dir_all(folder).map_err(ReportError::write(folder))?;
+        let mut plots = Self { only: Some(names.clone()), ..Self::new(folder.to_owned(), false) };
+        plots.draw_all(index)?;
+        plots.remove_stale()?;
+        Ok(plots.files)
+    }
+
     fn draw_all(&mut self, index: &Index<'_>) -> Result<PlotSets, ReportError> {
         let metric = index.summary.study.primary_metric.as_str();
         let has_trimmed = metric == "relmse" && index.metric("relmse_trimmed").is_some();
@@ -198,7 +217,10 @@ impl Plots {
     }
 
     fn add(&mut self, set: &mut Vec<Plot>, name: String, figure: Option<Figure>) -> Result<(), ReportError> {
-        let Some(figure) = figure else { return Ok(()) };
+        let Some(figure) = figure.filter(|_| self.only.as_ref().is_none_or(|names| names.contains(&name)))
+        else {
+            return Ok(());
+        };
         let drawing = Drawing::of(&figure, &name)?;
         self.glyphs.extend(drawing.glyphs.iter().copied());
         let svg = self.folder.join(format!("{name}.svg"));

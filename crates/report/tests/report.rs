@@ -76,7 +76,7 @@ fn every_section_and_plot_is_written() {
     }
     for text in [
         "The references have only 8 times the samples of the top level.",
-        "At 64 spp, virtual-flash has the lowest rMSE",
+        "At 64 spp, virtual-flash is tied for the lowest rMSE",
         "The replicates cannot tell it from guarded(virtual-flash)",
         "needs albedo and normal, which this frame does not have",
         "&lt; 0.00040",

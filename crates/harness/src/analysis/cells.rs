@@ -27,7 +27,7 @@ pub(super) fn cells(index: &Index<'_>) -> Vec<CellSummary> {
     out
 }
 
-/// Metric id to the constant of plain Monte Carlo's error = c/n.
+/// Id of a squared error to the constant of plain Monte Carlo's error = c/n.
 pub(super) type Fits = BTreeMap<String, MonteCarloFit>;
 
 /// Fits the squared errors of the baseline, whose expectation is exactly c/n if samples are independent.
@@ -37,11 +37,14 @@ pub(super) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
     if crate::measure::void(scene.sampling).is_some() || fresh_maps(&scene.settings) {
         return Fits::new();
     }
-    let squared = index.study.metrics.iter().filter(|id| crate::metric::order(id) == Some(2));
+    // The root of a squared error needs as many samples as that.
+    let squared: BTreeSet<&str> =
+        index.study.metrics.iter().filter_map(|id| crate::metric::squared(id)).collect();
     squared
+        .into_iter()
         .filter_map(|id| {
             let levels = series(index, scene, &baseline.summary.label, id);
-            Some((id.clone(), monte_carlo_constant(&levels, LEVEL)?))
+            Some((id.to_owned(), monte_carlo_constant(&levels, LEVEL)?))
         })
         .collect()
 }
@@ -71,13 +74,15 @@ struct Cell<'a> {
 impl Cell<'_> {
     fn summary(&self, fits: &Fits) -> CellSummary {
         let records = self.records;
+        let label = &self.row.summary.label;
+        let every = self.index.every_record(self.scene, self.spp, label);
         let runs: Vec<f64> = records.iter().flat_map(|r| r.seconds.denoise_runs.iter().copied()).collect();
         let classes: BTreeSet<&String> = records.iter().flat_map(|r| r.classes.keys()).collect();
         let multipliers = self.multipliers(fits);
         CellSummary {
             scene: self.scene.id.clone(),
             spp: self.spp,
-            label: self.row.summary.label.clone(),
+            label: label.clone(),
             metrics: self.means(None),
             ratio_to_mc: self.ratios(None),
             reference_bias: self.reference_bias(),
@@ -94,16 +99,20 @@ impl Cell<'_> {
             render_seconds: median(records.iter().filter_map(|r| r.seconds.render)),
             equal_error_extrapolated: multipliers.iter().map(|(id, (_, far))| (id.clone(), *far)).collect(),
             equal_error: multipliers.into_iter().map(|(id, (interval, _))| (id, interval)).collect(),
-            peak_memory_bytes: records.iter().filter_map(|r| r.peak_memory_bytes).max(),
-            enclosure_worst_ratio: records
+            peak_memory_bytes: every.iter().filter_map(|r| r.peak_memory_bytes).max(),
+            enclosure_worst_ratio: every
                 .iter()
                 .flat_map(|r| &r.enclosures)
                 .map(|check| check.worst_ratio)
                 .reduce(f64::max),
             figures: self.figures(),
             replicates: records.len() as u32,
-            invalid_input_pixels: records.iter().map(|r| r.non_finite.input_pixels as u64).sum(),
-            non_finite_output: records.iter().map(|r| r.non_finite.output_values as u64).sum(),
+            planned_replicates: self.scene.replicates.get(&self.spp).copied().unwrap_or(0),
+            pixels: records.iter().map(|r| r.pixels).min().unwrap_or(0),
+            pixels_of: records.iter().map(|r| r.pixels_of).max().unwrap_or(0),
+            left_out: self.index.left_out(self.scene, self.spp, label).map(str::to_owned),
+            invalid_input_pixels: every.iter().map(|r| r.non_finite.input_pixels as u64).sum(),
+            non_finite_output: every.iter().map(|r| r.non_finite.output_values as u64).sum(),
         }
     }
 
@@ -142,11 +151,19 @@ impl Cell<'_> {
     }
 
     fn multipliers(&self, fits: &Fits) -> BTreeMap<String, (Interval, bool)> {
+        if self.index.left_out(self.scene, self.spp, &self.row.summary.label).is_some() {
+            return BTreeMap::new();
+        }
         let top = self.index.levels_of(self.scene).max().unwrap_or(self.spp);
-        fits.iter()
-            .filter_map(|(id, fit)| {
-                let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, id)).collect();
-                let reference = reference_share(self.records, None, id);
+        self.index
+            .study
+            .metrics
+            .iter()
+            .filter_map(|id| {
+                let squared = crate::metric::squared(id)?;
+                let fit = fits.get(squared)?;
+                let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, squared)).collect();
+                let reference = reference_share(self.records, None, squared);
                 let spent = self.records.first().and_then(|r| r.frame_spp).unwrap_or(self.spp);
                 let (spp, top) = (f64::from(spent), f64::from(top));
                 let multiplier = equal_error_multiplier(fit, spp, &errors, &reference, top, LEVEL)?;

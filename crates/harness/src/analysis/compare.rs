@@ -7,7 +7,8 @@ use crate::context::SceneContext;
 use crate::study::Family;
 use crate::summary::{Comparison, PairResult, Source};
 
-/// Rows against each other, per scene, level and metric; none where only one row ran.
+/// Rows against each other, per scene, level and metric, over the replicates that all of them have; none where fewer
+/// than two can be ranked.
 pub(super) fn comparisons(index: &Index<'_>) -> Vec<Comparison> {
     let mut out = Vec::new();
     for scene in index.scenes() {
@@ -25,6 +26,9 @@ fn one(index: &Index<'_>, scene: &SceneContext, spp: u32, metric: &str) -> Optio
     let mut values = Vec::new();
     let mut noise = Vec::new();
     for row in index.rows() {
+        if index.left_out(scene, spp, &row.summary.label).is_some() {
+            continue;
+        }
         let records = index.records(scene, spp, &row.summary.label);
         let of_row = by_replicate(records, None, metric);
         if of_row.iter().any(Option::is_some) {

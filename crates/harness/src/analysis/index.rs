@@ -1,5 +1,6 @@
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::analysis::standing::Standing;
 use crate::context::{Context, Row, SceneContext};
 use crate::record::{Outcome, Record};
 use crate::study::{RowFrames, Study};
@@ -10,6 +11,9 @@ pub(super) struct Index<'a> {
     pub(super) study: &'a Study,
     pub(super) context: &'a Context,
     done: BTreeMap<(String, u32, String), Vec<&'a Record>>,
+    /// The same, of ranked rows only the replicates that all of them have.
+    comparable: BTreeMap<(String, u32, String), Vec<&'a Record>>,
+    standings: BTreeMap<(String, u32), Standing>,
     ended: Vec<&'a Record>,
 }
 
@@ -29,7 +33,20 @@ impl<'a> Index<'a> {
         for replicates in done.values_mut() {
             replicates.sort_by_key(|record| record.replicate);
         }
-        Self { study, context, done, ended }
+        let mut levels: BTreeMap<(String, u32), Vec<&Record>> = BTreeMap::new();
+        for record in records {
+            levels.entry((record.scene.clone(), record.spp)).or_default().push(record);
+        }
+        let standings: BTreeMap<(String, u32), Standing> =
+            levels.into_iter().map(|(level, records)| (level, Standing::of(&records))).collect();
+        let mut comparable = done.clone();
+        for ((scene, spp, label), records) in &mut comparable {
+            let standing = standings.get(&(scene.clone(), *spp));
+            if let Some(standing) = standing.filter(|s| !s.left_out.contains_key(label)) {
+                records.retain(|record| standing.common.contains(&record.replicate));
+            }
+        }
+        Self { study, context, done, comparable, standings, ended }
     }
 
     pub(super) fn scenes(&self) -> &'a [SceneContext] {
@@ -59,9 +76,21 @@ impl<'a> Index<'a> {
         scene.replicates.keys().copied()
     }
 
-    /// Replicates that ran, by number; empty if none did.
+    /// Replicates whose numbers can be set beside those of other rows: of a ranked row those that all ranked rows of
+    /// the level have, of another all that ran. By number; empty if none did.
     pub(super) fn records(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
+        self.comparable.get(&(scene.id.clone(), spp, label.to_owned())).map_or(&[], Vec::as_slice)
+    }
+
+    /// All replicates that ran, by number: for what must hold in every one of them.
+    pub(super) fn every_record(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
         self.done.get(&(scene.id.clone(), spp, label.to_owned())).map_or(&[], Vec::as_slice)
+    }
+
+    /// Why a row takes no part in the ranking of a level, if so.
+    pub(super) fn left_out(&self, scene: &SceneContext, spp: u32, label: &str) -> Option<&str> {
+        let standing = self.standings.get(&(scene.id.clone(), spp))?;
+        standing.left_out.get(label).map(String::as_str)
     }
 
     /// Cells that did not run, merged over levels and replicates where the reason is the same.

@@ -47,6 +47,15 @@ fn one(
             "no replicate has a number for both rows".into()
         }
     };
+    // Other frames or fewer pixels than the other row's may turn a ratio into anything.
+    let left_out = [&compare.row, &compare.over]
+        .into_iter()
+        .find_map(|label| Some(format!("`{label}`: {}", index.left_out(scene, spp, label)?)));
+    let verdict = match &ours {
+        Some(_) if left_out.is_some() => "undecided",
+        Some(ours) => verdict(ours, paper),
+        None => "no number",
+    };
     PaperResult {
         what: compare.what.clone(),
         scene: scene.id.clone(),
@@ -54,8 +63,8 @@ fn one(
         row: compare.row.clone(),
         over: compare.over.clone(),
         metric: compare.metric.clone(),
-        verdict: ours.as_ref().map_or("no number", |ours| verdict(ours, paper)).into(),
-        reason: ours.is_none().then(reason),
+        verdict: verdict.into(),
+        reason: if ours.is_none() { Some(reason()) } else { left_out },
         ours,
         paper: [paper.low, paper.high],
         source: compare.source.clone(),

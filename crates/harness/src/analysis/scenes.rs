@@ -20,14 +20,24 @@ pub(super) fn times(ratio: f64) -> f64 {
     (ratio * 10.0).round() / 10.0
 }
 
-pub(super) fn scenes(index: &Index<'_>, records: &[Record]) -> Vec<SceneSummary> {
+/// Scenes in the order of the study; without images where the study is a recorded one.
+pub(super) fn scenes(index: &Index<'_>, records: &[Record], recorded: bool) -> Vec<SceneSummary> {
     let all = index.scenes();
     let title = |scene: &SceneContext| {
         // Frames of one sequence are told apart by their ids.
         let shared = all.iter().any(|other| other.id != scene.id && other.title == scene.title);
         if shared { format!("{} · {}", scene.title, scene.id) } else { scene.title.clone() }
     };
-    all.iter().map(|scene| SceneSummary { title: title(scene), ..summary(scene, records) }).collect()
+    let without_images = |scene: SceneSummary| SceneSummary {
+        images: BTreeMap::new(),
+        diagnostics: BTreeMap::new(),
+        reference_image: String::new(),
+        ..scene
+    };
+    all.iter()
+        .map(|scene| SceneSummary { title: title(scene), ..summary(scene, records) })
+        .map(|scene| if recorded { without_images(scene) } else { scene })
+        .collect()
 }
 
 fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
@@ -99,6 +109,7 @@ fn reference(scene: &SceneContext, records: &[&Record]) -> ReferenceSummary {
     let ratio = reference_ratio(scene, top);
     ReferenceSummary {
         spp: scene.reference.spp,
+        exact: scene.reference.exact,
         parts: scene.reference.parts,
         sampling: scene.reference.sampling.clone(),
         correction: scene.reference.correction.clone(),

@@ -43,10 +43,14 @@ fn share(record: &Record, class: Option<&str>, metric: &str) -> Option<Reference
     })
 }
 
-/// Errors of a row over all levels of a scene.
+/// Errors of a row over all levels of a scene where it can be ranked.
 pub(super) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metric: &str) -> Levels {
     let mut levels = Levels::new();
     for &spp in scene.replicates.keys() {
+        // Means over other frames or fewer pixels than at the other levels.
+        if index.left_out(scene, spp, label).is_some() {
+            continue;
+        }
         let records = index.records(scene, spp, label);
         let share = reference_share(records, None, metric);
         levels.push(f64::from(spp), &by_replicate(records, None, metric), share);

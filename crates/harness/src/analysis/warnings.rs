@@ -38,6 +38,14 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
             entry.reason
         ));
     }
+    if summary.progress.is_none() {
+        out.push(
+            "how many cells the study asks for is unknown (the list of its folders' frames was not kept): whether it is finished \
+             cannot be told"
+                .into(),
+        );
+    }
+    out.extend(left_out(summary));
     if index.baseline().is_none() {
         out.push(
             "no row is plain Monte Carlo: ratios, equal-error multipliers and coverage are absent".into(),
@@ -54,6 +62,25 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
         of_scene(index, scene, summary, &mut out);
     }
     out
+}
+
+/// Rows that are not ranked, levels with the same reason together.
+fn left_out(summary: &Summary) -> Vec<String> {
+    let mut groups: Vec<(&str, &str, &str, Vec<String>)> = Vec::new();
+    for cell in &summary.cells {
+        let Some(reason) = &cell.left_out else { continue };
+        let same = |g: &&mut (&str, &str, &str, Vec<String>)| {
+            g.0 == cell.scene && g.1 == cell.label && g.2 == reason
+        };
+        match groups.iter_mut().find(same) {
+            Some(group) => group.3.push(cell.spp.to_string()),
+            None => groups.push((&cell.scene, &cell.label, reason, vec![cell.spp.to_string()])),
+        }
+    }
+    let line = |(scene, label, reason, spp): (&str, &str, &str, Vec<String>)| {
+        format!("{label} on {scene} at {} spp is not ranked: {reason}", spp.join(", "))
+    };
+    groups.into_iter().map(line).collect()
 }
 
 fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mut Vec<String>) {
@@ -103,6 +130,13 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     if invalid > 0 {
         out.push(format!(
             "{id}: up to {invalid} input pixels per level were not finite and are in no number"
+        ));
+    }
+    let fewer = cells().filter(|cell| cell.left_out.is_none() && cell.pixels < cell.pixels_of);
+    if let Some(least) = fewer.min_by_key(|cell| cell.pixels) {
+        out.push(format!(
+            "{id}: errors are over as few as {} of {} pixels, those where input, output and reference are finite",
+            least.pixels, least.pixels_of
         ));
     }
     for (metric, fit) in monte_carlo(index, scene) {

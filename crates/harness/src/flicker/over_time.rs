@@ -9,9 +9,10 @@
 //! (4·S_ab·v + 2·v²)/(T−1), S_ab the covariance of d_t^a and d_t^b over the frames, estimated in the same way.
 
 use noisefloor_frame::{Image, Reference, Variance};
+use serde::{Deserialize, Serialize};
 
 /// Numbers over the frames, means over pixels and channels.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct OverTime {
     /// Unbiased variance of the error over the frames, less the references' variance.
     pub(crate) variance: Corrected,
@@ -24,7 +25,7 @@ pub(crate) struct OverTime {
 }
 
 /// A mean that the references' noise was taken out of.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Corrected {
     pub(crate) value: f64,
     /// Standard error that the references contribute, common to all replicates.

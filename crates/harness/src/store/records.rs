@@ -27,6 +27,20 @@ pub(crate) struct Found {
     torn: bool,
 }
 
+impl Found {
+    /// The records of a file that nobody can mend: every line must be one.
+    pub(crate) fn whole_or_error(self, path: &Path) -> Result<Vec<Record>, HarnessError> {
+        let newer = self
+            .newer
+            .map(|(line, schema)| (line, format!("a newer program wrote it (record schema {schema})")));
+        let first = self.damaged.first().map(|damaged| (damaged.line, damaged.why.clone())).or(newer);
+        match first {
+            Some((line, message)) => Err(HarnessError::Kept { path: path.into(), line: Some(line), message }),
+            None => Ok(self.records),
+        }
+    }
+}
+
 /// A line that cannot be read.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Damaged {
@@ -92,6 +106,11 @@ impl Records {
             Err(e) if e.kind() == std::io::ErrorKind::NotFound => Vec::new(),
             Err(e) => return Err(HarnessError::io("read", path)(e)),
         };
+        Ok(Self::parse(&bytes))
+    }
+
+    /// Reads records from the text of a file.
+    pub(crate) fn parse(bytes: &[u8]) -> Found {
         let whole = bytes.iter().rposition(|&b| b == b'\n').map_or(0, |last| last + 1);
         let mut found = Found {
             records: Vec::new(),
@@ -120,7 +139,7 @@ impl Records {
                 }),
             }
         }
-        Ok(found)
+        found
     }
 
     /// All records in file order.

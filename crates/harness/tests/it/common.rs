@@ -25,22 +25,27 @@ struct Blur(BlurParams);
 struct BlurParams {
     radius: usize,
     boast: bool,
+    halves: bool,
 }
 
 impl Default for BlurParams {
     fn default() -> Self {
-        Self { radius: 1, boast: false }
+        Self { radius: 1, boast: false, halves: false }
     }
 }
 
 const BLUR_PARAMS: &[ParamDoc] = &[
     ParamDoc { name: "radius", range: "0 to 20 pixels", about: "half the window" },
     ParamDoc { name: "boast", range: "true or false", about: "claims an interval that it leaves" },
+    ParamDoc { name: "halves", range: "true or false", about: "needs half buffers" },
 ];
 
 impl Denoiser for Blur {
     fn card(&self) -> MethodCard {
         let mut card = MethodCard::new("blur", "Box blur", CITATION);
+        if self.0.halves {
+            card.needs = vec![Need::ColorHalves];
+        }
         if self.0.boast {
             let level = Level::TWO_SIDED_95;
             let claim = Claim { name: "boast", terms: vec![(1e-3, level)], level, proven: false };

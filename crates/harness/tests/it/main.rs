@@ -11,6 +11,7 @@ mod kept;
 mod limits;
 mod outcomes;
 mod paper;
+mod progress;
 mod recorded;
 mod resume;
 mod shots;

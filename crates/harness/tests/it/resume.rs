@@ -71,7 +71,9 @@ fn a_damaged_line_is_set_aside_and_told_and_its_cell_runs_again() {
 
     // A report tells, and goes on with the rest.
     let summary = reanalyse(&place.out(), false).unwrap();
-    assert_eq!(summary.cells.iter().map(|cell| cell.replicates).sum::<u32>(), 7);
+    // Its replicate is missing in one row, and so in no row that is compared with it.
+    assert_eq!(summary.cells.iter().map(|cell| cell.replicates).sum::<u32>(), 6);
+    assert_eq!(summary.progress.as_ref().map(|progress| progress.finished), Some(7));
     let [found] = summary.findings.as_slice() else { panic!("{:?}", summary.findings) };
     assert!(found.kind == FindingKind::DamagedFile && found.subject == "results.jsonl, line 3", "{found:?}");
     assert!(!place.out().join("results.damaged.jsonl").exists(), "a report changes nothing");

@@ -111,6 +111,7 @@ fn datum(b: &BoundSummary) -> Datum {
         low: b.violations.low.map(|v| v.max(0.0)),
         high: b.violations.high,
         limit: false,
+        doubtful: false,
         spot: format!(
             "{}, {}, {} spp: {} beside α = {}{mark}",
             b.label,

@@ -21,12 +21,14 @@ pub(crate) enum Key {
     Line(Stroke, String),
     /// A shaded region.
     Shade(Color, f64, String),
+    /// The ring around points that cannot be compared with the others.
+    Doubtful(String),
 }
 
 impl Key {
     fn text(&self) -> &str {
         match self {
-            Self::Series(_, t) | Self::Line(_, t) | Self::Shade(_, _, t) => t,
+            Self::Series(_, t) | Self::Line(_, t) | Self::Shade(_, _, t) | Self::Doubtful(t) => t,
         }
     }
 }
@@ -41,6 +43,8 @@ pub(crate) struct Datum {
     pub high: Option<f64>,
     /// `y` is only an upper limit: drawn as an arrow that points to the lower end of the axis.
     pub limit: bool,
+    /// Over other frames or fewer pixels than the others: ringed.
+    pub doubtful: bool,
     /// What the page shows under the pointer.
     pub spot: String,
 }
@@ -191,8 +195,8 @@ impl Chart {
             (px + shift, py)
         };
         if connect {
-            // Limits and zeros have no place on a logarithmic line.
-            for run in data.split(|d| d.limit || d.y <= 0.0) {
+            // Limits and zeros have no place on a logarithmic line, nor has what cannot be compared.
+            for run in data.split(|d| d.limit || d.doubtful || d.y <= 0.0) {
                 let points = run.iter().map(|d| place(self, d.x, d.y)).collect();
                 self.figure.line(points, look.stroke());
             }
@@ -206,6 +210,9 @@ impl Chart {
             let at = place(self, d.x, d.y);
             if d.limit {
                 self.arrow(look.color, at);
+            }
+            if d.doubtful {
+                ring(&mut self.figure, at);
             }
             mark(&mut self.figure, look, at);
             self.figure.spot(at, d.spot.clone());
@@ -260,6 +267,7 @@ impl Chart {
                     self.figure.line(ends, look.stroke());
                     mark(&mut self.figure, *look, (x + 0.5 * KEY_SAMPLE, y));
                 }
+                Key::Doubtful(_) => ring(&mut self.figure, (x + 0.5 * KEY_SAMPLE, y)),
                 Key::Line(stroke, _) => self.figure.line(ends, *stroke),
                 Key::Shade(color, alpha, _) => {
                     self.figure.rect((x, y - 3.0), (x + KEY_SAMPLE, y + 3.0), *color, *alpha);
@@ -272,6 +280,15 @@ impl Chart {
         self.figure.height = start + rows as f64 * KEY_HEIGHT - KEY_HEIGHT / 2.0 + 3.0;
         self.figure
     }
+}
+
+/// A circle around a point.
+fn ring(figure: &mut Figure, (x, y): Point) {
+    let corner = |k: u32| {
+        let angle = f64::from(k) * std::f64::consts::TAU / 24.0;
+        (x + 5.0 * angle.cos(), y + 5.0 * angle.sin())
+    };
+    figure.line((0..=24).map(corner).collect(), Stroke::solid(MUTED, 0.7));
 }
 
 const KEY_SIZE: f64 = 7.1;

@@ -43,6 +43,9 @@ pub(crate) fn convergence(index: &Index<'_>, scene: &SceneSummary, metric: &str)
         chart.line(&points, stroke);
         keys.push(Key::Line(stroke, text));
     }
+    if rows.iter().flat_map(|(_, data)| data).any(|d| d.doubtful) {
+        keys.push(Key::Doubtful("other frames or fewer pixels: not ranked".into()));
+    }
     let step = (6.0 / rows.len() as f64).min(1.2);
     let mut series = Vec::new();
     for (i, (label, data)) in rows.iter().enumerate() {
@@ -66,9 +69,12 @@ fn data(index: &Index<'_>, scene: &SceneSummary, label: &str, metric: &str) -> V
     index
         .levels(&scene.id)
         .filter_map(|spp| {
-            let interval = index.cell(&scene.id, spp, label)?.metrics.get(metric)?;
+            let cell = index.cell(&scene.id, spp, label)?;
+            let interval = cell.metrics.get(metric)?;
             let shown = format::interval(interval).line();
-            datum(spp, interval, format!("{label}, {spp} spp: {shown} {unit}").trim_end().to_owned())
+            let why = cell.left_out.as_ref().map_or_else(String::new, |why| format!(" (not ranked: {why})"));
+            let spot = format!("{label}, {spp} spp: {shown} {unit}").trim_end().to_owned() + &why;
+            Some(Datum { doubtful: cell.left_out.is_some(), ..datum(spp, interval, spot)? })
         })
         .collect()
 }
@@ -83,22 +89,25 @@ fn datum(spp: u32, interval: &Interval, spot: String) -> Option<Datum> {
         low: interval.low,
         high: interval.high,
         limit: limit.is_some(),
+        doubtful: false,
         spot,
     })
 }
 
-/// Plain Monte Carlo's law through its own points: c/n for squared errors, c/√n for their root.
+/// Plain Monte Carlo's law through its own points: c/n for squared errors, c/√n for their root. Nothing for metrics
+/// without a rate, nor where the frames do not obey it.
 fn guide(index: &Index<'_>, scene: &SceneSummary, metric: &str) -> Option<(Vec<(f64, f64)>, String)> {
-    let power = match metric {
-        "mse" | "relmse" | "relmse_trimmed" => 1.0,
-        "rmse" => 0.5,
-        _ => return None,
+    let power = match index.metric(metric)?.order? {
+        2 => 1.0,
+        _ => 0.5,
     };
     let baseline = index.baseline()?;
     let logs: Vec<f64> = index
         .levels(&scene.id)
         .filter_map(|spp| {
-            let interval = index.cell(&scene.id, spp, baseline)?.metrics.get(metric)?;
+            let cell = index.cell(&scene.id, spp, baseline)?;
+            // The analysis fitted c where it means something.
+            let interval = cell.metrics.get(metric).filter(|_| cell.equal_error.contains_key(metric))?;
             (interval.below.is_none() && interval.value > 0.0)
                 .then(|| (interval.value * f64::from(spp).powf(power)).ln())
         })

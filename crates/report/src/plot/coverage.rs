@@ -58,6 +58,7 @@ fn datum(c: &CoverageSummary) -> Datum {
         low: c.covered.low,
         high: c.covered.high,
         limit: false,
+        doubtful: false,
         spot: format!(
             "{} spp: {} of nominal {}{mark}",
             c.spp,

@@ -70,6 +70,7 @@ fn datum(e: &EstimateSummary, k: usize, bin: &EstimateBin) -> Option<Datum> {
         low: measured.low,
         high: measured.high,
         limit,
+        doubtful: false,
         spot: format!(
             "{}, {} spp, tenth {}: estimated {}, measured {}",
             e.label,

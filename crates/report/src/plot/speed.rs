@@ -65,7 +65,13 @@ pub(crate) fn speed(index: &Index<'_>, scene: &SceneSummary, metric: &str, time:
         Axis::seconds(time.title(), seconds),
         Axis::log(&index.metric_label(metric), all.iter().map(|d| d.y)),
     );
-    chart.line(&staircase(&pareto(&all, lower)), FRONT);
+    // Rows over other frames or fewer pixels are shown, and beat nothing.
+    let ranked: Vec<&Datum> = all.iter().copied().filter(|d| !d.doubtful).collect();
+    chart.line(&staircase(&pareto(&ranked, lower)), FRONT);
+    let mut guides = vec![Key::Line(FRONT, "Pareto front".into())];
+    if ranked.len() < all.len() {
+        guides.push(Key::Doubtful("other frames or fewer pixels: not ranked".into()));
+    }
     let mut keys = Vec::new();
     for (label, data) in &rows {
         let look = index.looks.get(label);
@@ -74,7 +80,7 @@ pub(crate) fn speed(index: &Index<'_>, scene: &SceneSummary, metric: &str, time:
         keys.push(Key::Series(look, (*label).to_owned()));
     }
     name_levels(&mut chart, &rows, time);
-    Some(chart.finish(keys, vec![Key::Line(FRONT, "Pareto front".into())]))
+    Some(chart.finish(keys, guides))
 }
 
 /// The border of what is reachable, under everything else.
@@ -115,6 +121,7 @@ fn point(cell: &CellSummary, metric: &str, time: Time) -> Option<Datum> {
         low: interval.low,
         high: interval.high,
         limit: interval.below.is_some(),
+        doubtful: cell.left_out.is_some(),
         spot: format!(
             "{}, {} spp: {} in {}",
             cell.label,
@@ -156,7 +163,7 @@ mod tests {
     use super::*;
 
     fn datum(x: f64, y: f64) -> Datum {
-        Datum { x, y, low: None, high: None, limit: false, spot: String::new() }
+        Datum { x, y, low: None, high: None, limit: false, doubtful: false, spot: String::new() }
     }
 
     #[test]

@@ -108,7 +108,8 @@ pub(crate) struct BoundRow {
 pub(crate) struct BoundCell {
     pub rate: String,
     pub spread: String,
-    pub holds: bool,
+    /// `holds`, `fails` or `undecided`.
+    pub verdict: String,
     pub marked: bool,
     /// Uncorrected rate, share of missed events, looseness: shown on demand.
     pub details: String,
@@ -181,7 +182,7 @@ fn bound_cell(b: &BoundSummary) -> BoundCell {
     BoundCell {
         rate: shown.value,
         spread: shown.spread,
-        holds: b.verdict != "fails",
+        verdict: b.verdict.clone(),
         marked: b.mark.is_some(),
         details,
     }

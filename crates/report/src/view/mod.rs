@@ -15,12 +15,12 @@ use serde::Serialize;
 
 use crate::format;
 use crate::index::Index;
-pub(crate) use claims::{BoundsView, CoverageView, EnclosureView};
-pub(crate) use equal_time::EqualTimeRow;
-pub(crate) use estimates::EstimatesView;
-pub(crate) use flicker::FlickerView;
-pub(crate) use headline::{Answer, Board, SceneCard};
-pub(crate) use paper::PaperRow;
+pub(crate) use claims::{BoundRow, BoundsView, CoverageView, EnclosureView, bounds, coverage};
+pub(crate) use equal_time::{EqualTimeRow, equal_time};
+pub(crate) use estimates::{EstimateRow, EstimatesView, estimates};
+pub(crate) use flicker::{FlickerView, flicker};
+pub(crate) use headline::{Answer, Board, SceneCard, answers};
+pub(crate) use paper::{PaperRow, paper};
 pub(crate) use slopes::SlopeTable;
 pub(crate) use table::SceneTable;
 
@@ -36,13 +36,20 @@ pub(crate) struct Page {
     pub environment: Vec<(String, String)>,
     pub date: String,
     pub version: String,
+    /// What is missing of an unfinished study.
+    pub unfinished: Option<Unfinished>,
+    /// What was found about the inputs, before everything that follows from it.
+    pub findings: Vec<String>,
     pub warnings: Vec<String>,
+    /// Where the pictures are, if they are not here.
+    pub recorded: Option<String>,
     pub answers: Vec<Answer>,
     pub board: Board,
     pub cards: Vec<SceneCard>,
     pub paper: Vec<PaperRow>,
     pub metric: String,
     pub uncertainty: String,
+    pub has_equal: bool,
     pub levels: Vec<Level>,
     pub tables: Vec<SceneTable>,
     pub failures: Vec<Failure>,
@@ -56,6 +63,14 @@ pub(crate) struct Page {
     pub methods: Vec<MethodView>,
     pub metrics: Vec<MetricInfo>,
     pub scenes: Vec<SceneView>,
+}
+
+/// How far a study got that did not come to its end.
+#[derive(Debug, Serialize)]
+pub(crate) struct Unfinished {
+    pub finished: u64,
+    pub planned: u64,
+    pub missing: Vec<String>,
 }
 
 /// A samples-per-pixel level that the tables can show.
@@ -113,13 +128,22 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         environment: environment(&summary.environment),
         date: summary.environment.date.clone(),
         version: summary.environment.version.clone(),
+        unfinished: unfinished(summary),
+        findings: merged(&summary.findings.iter().map(ToString::to_string).collect::<Vec<_>>()),
         warnings: warnings(summary),
+        recorded: summary.recorded.then(|| {
+            format!(
+                "Made from a recorded study, which keeps numbers and no images: the command {} makes them.",
+                study.command
+            )
+        }),
         answers: headline::answers(index),
         board: headline::board(index),
         cards: headline::cards(index),
         paper: paper::paper(index),
         metric: index.metric_name(&study.primary_metric),
         uncertainty: words::uncertainty(summary),
+        has_equal: index.metric(&study.primary_metric).is_some_and(|m| m.order.is_some()),
         levels: study.spp.iter().map(|&spp| Level { spp, chosen: Some(spp) == chosen }).collect(),
         tables: summary.scenes.iter().map(|s| table::scene(index, s)).collect(),
         failures: failures(index),
@@ -138,8 +162,7 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
 
 /// The study's own warnings, and those that the numbers of the summary add.
 fn warnings(summary: &Summary) -> Vec<String> {
-    let found = summary.findings.iter().map(ToString::to_string);
-    let mut warnings = merged(&found.chain(summary.warnings.iter().cloned()).collect::<Vec<_>>());
+    let mut warnings = merged(&summary.warnings);
     let environment = &summary.environment;
     let busy = environment.load_at_start.filter(|load| *load > 0.5 && environment.logical_cpus > 0);
     if let Some(load) = busy {
@@ -150,6 +173,15 @@ fn warnings(summary: &Summary) -> Vec<String> {
         ));
     }
     warnings
+}
+
+fn unfinished(summary: &Summary) -> Option<Unfinished> {
+    let progress = summary.progress.as_ref().filter(|progress| !progress.complete())?;
+    Some(Unfinished {
+        finished: progress.finished,
+        planned: progress.planned,
+        missing: progress.missing.iter().map(ToString::to_string).collect(),
+    })
 }
 
 /// Warnings that say the same of several subjects (`subject: what`), as one.

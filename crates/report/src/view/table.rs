@@ -22,9 +22,15 @@ pub(crate) struct LevelTable {
     pub replicates: u32,
     pub render: String,
     pub rows: Vec<Row>,
+    /// Whether plain Monte Carlo has a rate in this metric, so that samples for an equal error can be told.
+    pub has_equal: bool,
     pub skipped: Vec<(String, String, String)>,
     pub note: String,
+    /// Rows that are left out of the ranking, with the reason.
+    pub left_out: Vec<(String, String)>,
     pub metrics: Wide,
+    /// Which of the metrics cannot be set beside each other.
+    pub metrics_note: String,
     pub classes: Option<Wide>,
     pub pairs: Vec<Pair>,
 }
@@ -36,6 +42,11 @@ pub(crate) struct Row {
     pub swatch: usize,
     /// Cannot be told from the best.
     pub best: bool,
+    /// Over how many pixels its numbers are, if not over all.
+    pub pixels: String,
+    /// `best`, `tied`, `first so far` and the like, with what it means; empty for other rows.
+    pub tag: &'static str,
+    pub tag_title: &'static str,
     pub value: Texts,
     pub ratio: Texts,
     pub forest: Option<Forest>,
@@ -91,51 +102,96 @@ pub(crate) struct Pair {
 pub(crate) fn scene(index: &Index<'_>, scene: &SceneSummary) -> SceneTable {
     let chosen = index.default_spp();
     let levels = index.summary.study.spp.iter().map(|&spp| level(index, scene, spp, Some(spp) == chosen));
-    let reference = match scene.reference.spp {
-        0 => "exact truth".to_owned(),
-        spp => format!("reference of {spp} spp"),
-    };
-    SceneTable { title: scene.title.clone(), reference, levels: levels.collect() }
+    SceneTable { title: scene.title.clone(), reference: scene.reference.name(), levels: levels.collect() }
 }
 
 fn level(index: &Index<'_>, scene: &SceneSummary, spp: u32, chosen: bool) -> LevelTable {
     let metric = &index.summary.study.primary_metric;
     let ranking = index.ranking(&scene.id, spp, metric);
-    let cells: Vec<&CellSummary> = ranking.iter().filter_map(|l| index.cell(&scene.id, spp, l)).collect();
+    let ranked: Vec<&CellSummary> = ranking.iter().filter_map(|l| index.cell(&scene.id, spp, l)).collect();
+    let left_out = index.left_out(&scene.id, spp);
+    let cells: Vec<&CellSummary> =
+        ranked.iter().copied().chain(left_out.iter().map(|(cell, _)| *cell)).collect();
     let comparison = index.comparison(&scene.id, spp, metric);
     let single = index.single(&scene.id, spp);
+    let complete = index.complete_at(&scene.id, spp);
     let range = forest_range(&cells, metric);
+    let group: &[String] = comparison.filter(|_| !single).map_or(&[], |c| &c.best_group);
     let rows = cells.iter().map(|cell| {
-        let best = !single && comparison.is_some_and(|c| c.best_group.contains(&cell.label));
-        row(index, cell, metric, best, range)
+        let tag = match (cell.left_out.is_some(), group.contains(&cell.label), group.len(), complete) {
+            (true, ..) => ("not ranked", "Not on the same frames and pixels as the others"),
+            (_, false, ..) => ("", ""),
+            (_, _, 1, true) => ("best", "The best"),
+            (_, _, _, true) => ("tied", "Not distinguishable from the best"),
+            (_, _, 1, false) => ("first so far", "The level is unfinished"),
+            (_, _, _, false) => {
+                ("tied so far", "Not distinguishable from the first; the level is unfinished")
+            }
+        };
+        row(index, cell, metric, tag, range)
     });
-    let note = comparison.map_or_else(String::new, |c| {
+    let mut notes = Vec::new();
+    if let Some(c) = comparison.filter(|_| !single) {
         let family = match c.family.as_str() {
             "with-best" => "each compared with the best",
             _ => "all pairs compared",
         };
-        format!("Marked rows are not distinguishable from the best at 95 % ({family}, Holm).")
-    });
-    let note = match single {
-        true => "One replicate: rows cannot be told apart; their order is that of the values.".to_owned(),
-        false => note,
-    };
+        notes.push(format!("Tied rows are not distinguishable from the best at 95 % ({family}, Holm)."));
+    }
+    if single {
+        notes.push("One replicate: rows cannot be told apart; their order is that of the values.".into());
+    }
+    let replicates = ranked.first().map_or(0, |cell| cell.replicates);
+    let planned = scene.replicates.get(&spp).copied().unwrap_or(0);
+    if !ranked.is_empty() && replicates < planned {
+        notes.push(format!(
+            "Numbers are over {replicates} of {planned} replicates, those that all ranked rows have."
+        ));
+    }
     let pairs = comparison.map_or_else(Vec::new, |c| c.pairs.iter().map(pair).collect());
+    let equal = index.metric(metric).is_some_and(|m| m.order.is_some());
     LevelTable {
         spp,
         chosen,
-        replicates: scene.replicates.get(&spp).copied().unwrap_or(0),
+        replicates: planned,
         render: scene.render_seconds.get(&spp).map_or_else(String::new, |s| format::duration(*s)),
         rows: rows.collect(),
+        has_equal: equal || cells.iter().any(|cell| cell.equal_error.contains_key(metric)),
         skipped: skipped(index, &scene.id, spp),
-        note,
+        note: notes.join(" "),
+        left_out: left_out.iter().map(|(cell, why)| (cell.label.clone(), (*why).to_owned())).collect(),
         metrics: metrics(index, &cells),
+        metrics_note: metrics_note(index),
         classes: classes(&cells, metric),
         pairs,
     }
 }
 
-fn row(index: &Index<'_>, cell: &CellSummary, metric: &str, best: bool, range: Option<(f64, f64)>) -> Row {
+/// Where trimmed and untrimmed values stand side by side: what keeps them from being compared.
+fn metrics_note(index: &Index<'_>) -> String {
+    let trimmed = index.summary.study.metrics.iter().find(|m| m.id == "relmse_trimmed");
+    match (trimmed, index.metric("relmse")) {
+        (Some(trimmed), Some(whole)) => {
+            let noise = match trimmed.reference_noise_removed == whole.reference_noise_removed {
+                true => String::new(),
+                false => format!(", and the noise of the reference is taken out of {} only", whole.name),
+            };
+            format!(
+                "† {} and {} cannot be compared with each other: {} leaves out each row's own worst 0.1 % of the pixels{noise}.",
+                trimmed.name, whole.name, trimmed.name
+            )
+        }
+        _ => String::new(),
+    }
+}
+
+fn row(
+    index: &Index<'_>,
+    cell: &CellSummary,
+    metric: &str,
+    (tag, tag_title): (&'static str, &'static str),
+    range: Option<(f64, f64)>,
+) -> Row {
     let is_baseline = Some(cell.label.as_str()) == index.baseline();
     let ratio = cell.ratio_to_mc.get(metric).filter(|_| !is_baseline);
     let equal = cell.equal_error.get(metric).filter(|_| !is_baseline);
@@ -148,7 +204,13 @@ fn row(index: &Index<'_>, cell: &CellSummary, metric: &str, best: bool, range: O
     Row {
         label: cell.label.clone(),
         swatch: index.summary.methods.iter().position(|m| m.label == cell.label).unwrap_or(0),
-        best,
+        best: !matches!(tag, "" | "not ranked"),
+        pixels: match (cell.pixels, cell.pixels_of) {
+            (pixels, all) if pixels < all && pixels > 0 => format!("over {pixels} of {all} pixels"),
+            _ => String::new(),
+        },
+        tag,
+        tag_title,
         value: cell.metrics.get(metric).map(format::interval).map(Texts::from).unwrap_or_default(),
         ratio: ratio.map(show_ratio).unwrap_or_default(),
         forest: ratio.zip(range).and_then(|(i, range)| forest(i, range)),
@@ -203,7 +265,11 @@ fn metrics(index: &Index<'_>, cells: &[&CellSummary]) -> Wide {
             |id: &&str| cell.metrics.get(*id).map(format::interval).map(Texts::from).unwrap_or_default();
         (cell.label.clone(), ids.iter().map(show).collect())
     });
-    Wide { columns: ids.iter().map(|id| index.metric_label(id)).collect(), rows: rows.collect() }
+    let column = |id: &&str| {
+        let mark = if *id == "relmse_trimmed" { " †" } else { "" };
+        format!("{}{mark}", index.metric_label(id))
+    };
+    Wide { columns: ids.iter().map(column).collect(), rows: rows.collect() }
 }
 
 /// The metric per pixel class, with the ratio to plain Monte Carlo.

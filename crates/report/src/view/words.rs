@@ -79,8 +79,10 @@ pub(crate) fn reference(r: &ReferenceSummary) -> Vec<(String, String)> {
             facts.push((name.to_owned(), value));
         }
     };
-    if r.spp == 0 {
-        add("Samples per pixel", "exact truth".into());
+    if r.is_exact() {
+        add("Samples per pixel", "none: exact truth".into());
+    } else if r.spp == 0 {
+        add("Samples per pixel", "unknown".into());
     } else {
         let ratio = format::ratio(r.ratio_to_top);
         let ratio = ratio.trim_end_matches('0').trim_end_matches('.');

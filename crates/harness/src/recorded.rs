@@ -1,0 +1,130 @@
+//! Recorded studies: the numbers of a study without its images, small enough for a repository.
+//!
+//! A recording has `study.json`, `context.json` with everything that the analysis must know beside the records, and
+//! `results.jsonl.gz`. It is analysed like the study itself. Recordings of earlier programs have `results.jsonl` and
+//! `summary.json`; a built-in study's is understood from these.
+
+mod earlier;
+
+use std::io::{Read as _, Write as _};
+use std::path::Path;
+
+use flate2::{Compression, GzBuilder, read::MultiGzDecoder};
+use serde::Serialize;
+
+use crate::context::Context;
+use crate::error::HarnessError;
+use crate::record::Record;
+use crate::store::{Layout, Records, read_json, write_whole};
+use crate::study::Study;
+use crate::summary::Summary;
+
+/// Most bytes of records that are unpacked: a file of a few megabytes can hold as many as a disk.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// What a study's folder keeps, that of a run or of a recording.
+pub(crate) struct KeptStudy {
+    pub(crate) study: Study,
+    pub(crate) context: Context,
+    pub(crate) records: Vec<Record>,
+    /// Without images.
+    pub(crate) recorded: bool,
+}
+
+impl KeptStudy {
+    /// Reads the folder of a recording, also of an earlier program; `None` if it is that of a study.
+    pub(crate) fn of_recording(dir: &Path) -> Result<Option<Self>, HarnessError> {
+        let layout = Layout::new(dir);
+        if layout.packed_records().is_file() {
+            let study = read_json(&layout.study())?;
+            let context = read_json(&layout.context())?;
+            let records = unpack(&layout.packed_records())?;
+            return Ok(Some(Self { study, context, records, recorded: true }));
+        }
+        // What is not there at all is told by who reads it.
+        if layout.study().is_file() || !dir.is_dir() { Ok(None) } else { earlier::read(dir).map(Some) }
+    }
+
+    /// Reads either and changes nothing in it.
+    pub(crate) fn read(dir: &Path) -> Result<Self, HarnessError> {
+        if let Some(recording) = Self::of_recording(dir)? {
+            return Ok(recording);
+        }
+        let layout = Layout::new(dir);
+        let study: Study = read_json(&layout.study())?;
+        let mut context: Context = read_json(&layout.context())?;
+        for scene in &study.scenes {
+            let path = dir.join(Layout::scene(&scene.id));
+            if path.exists() {
+                context.scenes.push(read_json(&path)?);
+            }
+        }
+        let records = Records::read(&layout.records())?.records;
+        Ok(Self { study, context, records, recorded: false })
+    }
+}
+
+/// The analysis of what a study's folder or a recording keeps; writes nothing.
+///
+/// # Errors
+/// As [`record`], for reading.
+pub fn analysis_of(dir: &Path) -> Result<Summary, HarnessError> {
+    let kept = KeptStudy::read(dir)?;
+    Ok(crate::analysis::analyse(&kept.study, &kept.context, &kept.records, dir, kept.recorded))
+}
+
+/// Writes the recording of a study: `study.json`, `context.json` and `results.jsonl.gz`. The same study gives the same
+/// bytes.
+///
+/// `dir` is a study's folder, or a recording, also of an earlier program; `to` may be `dir`. What is measured over the
+/// frames of a sequence is measured now, because that needs images.
+///
+/// # Errors
+/// [`HarnessError::NotAStudy`] if `dir` is none, [`HarnessError::Kept`] for a damaged file, [`HarnessError::Io`] and
+/// [`HarnessError::Image`] if a file cannot be read or written.
+pub fn record(dir: &Path, to: &Path) -> Result<(), HarnessError> {
+    let KeptStudy { study, mut context, records, recorded } = KeptStudy::read(dir)?;
+    if !recorded {
+        context.flicker = crate::flicker::measure(&study, &context, &records, dir).measured;
+    }
+    let layout = Layout::new(to);
+    std::fs::create_dir_all(to).map_err(HarnessError::io("make folder", to))?;
+    write_lines(&layout.study(), &study)?;
+    write_lines(&layout.context(), &context)?;
+    write_whole(&layout.packed_records(), &pack(&records, &layout.packed_records())?)?;
+    Ok(())
+}
+
+/// Compact JSON in one line.
+fn write_lines(path: &Path, value: &impl Serialize) -> Result<(), HarnessError> {
+    let mut text = serde_json::to_vec(value).map_err(|e| HarnessError::kept(path, e))?;
+    text.push(b'\n');
+    write_whole(path, &text)
+}
+
+fn pack(records: &[Record], path: &Path) -> Result<Vec<u8>, HarnessError> {
+    // Without a time and a name in the header, so that equal records give equal bytes.
+    let mut packed = GzBuilder::new().write(Vec::new(), Compression::best());
+    for record in records {
+        let line = serde_json::to_vec(record).map_err(|e| HarnessError::kept(path, e))?;
+        let written = packed.write_all(&line).and_then(|()| packed.write_all(b"\n"));
+        written.map_err(HarnessError::io("write", path))?;
+    }
+    packed.finish().map_err(HarnessError::io("write", path))
+}
+
+fn unpack(path: &Path) -> Result<Vec<Record>, HarnessError> {
+    let file = std::fs::File::open(path).map_err(HarnessError::io("read", path))?;
+    let mut bytes = Vec::new();
+    MultiGzDecoder::new(file)
+        .take(MOST_BYTES + 1)
+        .read_to_end(&mut bytes)
+        .map_err(HarnessError::io("unpack", path))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(HarnessError::kept(
+            path,
+            format!("more than {MOST_BYTES} bytes of records, the most that are read"),
+        ));
+    }
+    Records::parse(&bytes).whole_or_error(path)
+}
