@@ -120,9 +120,10 @@ pub struct Render {
     /// Samples per pixel
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: u32,
-    /// Random seed
-    #[arg(long, value_name = "S", default_value_t = 0)]
-    pub seed: u64,
+    /// Random seed [default: another one for each number of samples, and for references; it is printed]. Images of one seed
+    /// share samples; ranges of one run (--start) need one
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
     /// Image size in pixels
     #[arg(long, value_name = "WxH", default_value = "320x240")]
     pub size: Size,

@@ -11,7 +11,8 @@ use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
 use noisefloor_harness::{Maps, Shot};
 use noisefloor_render::{
-    FeatureHit, Keep, PhotonMaps, Prepared, Quantity, Record, RenderRequest, available, sequence_seed,
+    FeatureHit, Keep, PhotonMaps, Prepared, Purpose, Quantity, Record, RenderRequest, available,
+    sequence_seed, usual_seed,
 };
 use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
 use serde_json::Map;
@@ -87,7 +88,11 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
     }
     let mut request = RenderRequest::new(&prepared, args.size.width, args.size.height, args.spp);
     request.max_memory = crate::memory::allowed(args.max_memory);
-    request.seed = sequence_seed(args.seed, shot.frame);
+    let purpose = match args.parts {
+        Some(_) => Purpose::Reference { spp: args.spp },
+        None => Purpose::Frame { spp: args.spp },
+    };
+    request.seed = sequence_seed(args.seed.unwrap_or_else(|| usual_seed(purpose)), shot.frame);
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
@@ -136,7 +141,7 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
         let rate = seconds.filter(|s| *s > 0.0).map_or(String::new(), |s| {
             format!(" in {s:.1} s, {:.2} million samples/s", (pixels * u64::from(args.spp)) as f64 / s / 1e6)
         });
-        written.tell(rate)?;
+        written.tell(format_args!(", seed {}{rate}", request.seed))?;
     }
     Ok(())
 }

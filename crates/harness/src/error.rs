@@ -92,6 +92,21 @@ pub enum HarnessError {
         /// Why.
         reason: String,
     },
+    /// Two files that must be independent were made from the same random numbers.
+    #[error(
+        "{} and {} name the same scene, renderer, sampler and random seed {seed}: they share samples, and errors against each \
+         other mean nothing; render one of them with another seed",
+        first.display(),
+        second.display()
+    )]
+    SharedSeed {
+        /// One file.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+        /// Their seed.
+        seed: u64,
+    },
     /// The operating system refused something: no space, no permission, no such file.
     #[error("cannot {action} {}: {source}", path.display())]
     Io {

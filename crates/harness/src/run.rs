@@ -2,6 +2,7 @@
 
 mod cell;
 mod denoise;
+mod inputs;
 mod prepare;
 mod settle;
 

@@ -79,6 +79,11 @@ impl Layout {
         format!("reference/{scene}.json")
     }
 
+    /// What is kept of a scene's frames to hold them against each other, relative.
+    pub(crate) fn sketches(scene: &str) -> String {
+        format!("reference/{scene}.sketches.json")
+    }
+
     /// Pixel classes of a scene, relative.
     pub(crate) fn classes(scene: &str) -> String {
         format!("reference/{scene}.classes.exr")

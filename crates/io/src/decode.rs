@@ -23,6 +23,7 @@ use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::f16;
 
 use crate::attributes::{Attributes, decode_text};
+use crate::window::Window;
 use crate::{IoError, limits};
 
 /// Most pixels that a file may claim.
@@ -43,6 +44,7 @@ pub(crate) struct Opened {
     pub(crate) file: PathBuf,
     pub(crate) width: usize,
     pub(crate) height: usize,
+    pub(crate) window: Window,
     /// In file order.
     pub(crate) channels: Vec<Channel>,
     pub(crate) attributes: Attributes,
@@ -106,6 +108,7 @@ impl Opened {
             lossy,
             width: header.layer_size.width(),
             height: header.layer_size.height(),
+            window: Window::of(header),
             channels: header.channels.list.iter().map(describe).collect(),
             attributes,
             file_bytes: bytes,

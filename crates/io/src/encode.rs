@@ -4,6 +4,7 @@ use std::io::Cursor;
 
 use exr::block::UncompressedBlock;
 use exr::block::writer::ChunksWriter as _;
+use exr::math::Vec2;
 use exr::meta::attribute::{ChannelDescription, Compression, LineOrder, SampleType, Text};
 use exr::meta::header::{Header, LayerAttributes};
 use exr::meta::{BlockDescription, Headers};
@@ -11,6 +12,7 @@ use exr::prelude::SmallVec;
 
 use crate::attributes::{Attributes, LONG_NAMES};
 use crate::decode::MAX_PIXELS;
+use crate::window::Window;
 use crate::{Destination, IoError};
 
 /// The values of a channel, row by row.
@@ -34,6 +36,7 @@ pub(crate) fn write(
     height: usize,
     planes: Vec<Plane<'_>>,
     attributes: Attributes,
+    window: Option<&Window>,
 ) -> Result<(), IoError> {
     let file = to.name();
     if let Some(named) = to.file()?
@@ -51,7 +54,7 @@ pub(crate) fn write(
             limit,
         });
     }
-    let bytes = encode(width, height, planes, attributes)
+    let bytes = encode(width, height, planes, attributes, window)
         .map_err(|error| IoError::unsupported(file, format!("the encoder refuses: {error}")))?;
     to.write(|out| out.write_all(&bytes))
 }
@@ -61,6 +64,7 @@ fn encode(
     height: usize,
     mut planes: Vec<Plane<'_>>,
     mut attributes: Attributes,
+    window: Option<&Window>,
 ) -> exr::error::Result<Vec<u8>> {
     planes.sort_by(|a, b| a.name.cmp(&b.name)); // bytewise, as the format demands
     if planes.iter().any(|plane| plane.name.len() > 31) {
@@ -75,13 +79,17 @@ fn encode(
         ChannelDescription::new(name(&plane.name), kind, false)
     };
     let own = LayerAttributes {
+        layer_position: window.map_or(Vec2(0, 0), Window::data_position),
         other: attributes.into_iter().map(|(key, value)| (name(&key), value)).collect(),
         ..LayerAttributes::default()
     };
     let channels: SmallVec<_> = planes.iter().map(describe).collect();
-    let header = Header::new(Text::default(), (width, height), channels)
+    let mut header = Header::new(Text::default(), (width, height), channels)
         .with_encoding(Compression::ZIP16, BlockDescription::ScanLines, LineOrder::Increasing)
         .with_attributes(own);
+    if let Some(window) = window {
+        header.shared_attributes.display_window = window.display_bounds();
+    }
     let headers: Headers = std::iter::once(header).collect();
     let raw_bytes = 4 * width * height * planes.len();
 

@@ -247,8 +247,8 @@ pub enum IoError {
         /// Another.
         second: String,
     },
-    /// A frame of a folder differs in size from its reference.
-    #[error("{file}: is {width}×{height}, the reference of its folder is {expected_width}×{expected_height}")]
+    /// Two files that are to be held against each other differ in size.
+    #[error("{file}: is {width}×{height}, but {other} is {expected_width}×{expected_height}")]
     SizeMismatch {
         /// File.
         file: PathBuf,
@@ -256,10 +256,26 @@ pub enum IoError {
         width: usize,
         /// Rows.
         height: usize,
-        /// Columns of the reference.
+        /// The file that it is held against.
+        other: PathBuf,
+        /// Columns of that.
         expected_width: usize,
-        /// Rows of the reference.
+        /// Rows of that.
         expected_height: usize,
+    },
+    /// Two files of equal size whose pixels stand at different places of the picture.
+    #[error(
+        "{file} has {window}, but {other} has {expected}: their pixels are not the same places of the picture"
+    )]
+    WindowMismatch {
+        /// File.
+        file: PathBuf,
+        /// Its windows.
+        window: Window,
+        /// The file that it is held against.
+        other: PathBuf,
+        /// The windows of that.
+        expected: Window,
     },
 }
 

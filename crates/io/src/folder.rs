@@ -36,7 +36,7 @@ impl FrameFolder {
     ///
     /// # Errors
     /// [`IoError::Read`] if the folder cannot be listed, [`IoError::NoReference`], [`IoError::ManyReferences`],
-    /// [`IoError::NoFrames`], [`IoError::SizeMismatch`], [`IoError::MissingSpp`] if a header has no sample count
+    /// [`IoError::NoFrames`], [`IoError::SizeMismatch`], [`IoError::WindowMismatch`], [`IoError::MissingSpp`] if a header has no sample count
     /// and `options` neither, and whatever [`read_info`] finds wrong with a file.
     pub fn scan(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, IoError> {
         let path = path.as_ref();
@@ -57,7 +57,7 @@ impl FrameFolder {
             return Err(IoError::NoFrames { folder: path.to_owned(), children: false });
         }
         let reference_info = read_info(&reference)?;
-        let frames = list(others, &reference_info, options)?;
+        let frames = list(others, &reference, &reference_info, options)?;
         Ok(Self { path: path.to_owned(), reference, reference_info, frames })
     }
 
@@ -92,17 +92,14 @@ pub fn scan_scenes(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Vec<
 
 fn list(
     files: Vec<PathBuf>,
+    reference_file: &Path,
     reference: &FileInfo,
     options: &ReadOptions,
 ) -> Result<Vec<FolderFrame>, IoError> {
     let mut frames = Vec::new();
     for path in files {
         let info = read_info(&path)?;
-        let (expected_width, expected_height) = (reference.width, reference.height);
-        if (info.width, info.height) != (expected_width, expected_height) {
-            let (file, width, height) = (path, info.width, info.height);
-            return Err(IoError::SizeMismatch { file, width, height, expected_width, expected_height });
-        }
+        info.window.expect(&path, &reference.window, reference_file)?;
         let spp = match (info.spp, options.spp) {
             (Some(mean), _) => mean.round() as u32, // the reader keeps it within 1 ..= u32::MAX
             (None, Some(spp)) => spp,

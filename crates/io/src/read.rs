@@ -10,6 +10,7 @@ use crate::attributes::{self, Facts};
 use crate::decode::{Opened, Target};
 use crate::layers::{Layers, NEEDED_BY, Planned};
 use crate::names::{Layer, Statistic, missing_of_rgb, sort_by_plane, title};
+use crate::window::Window;
 use crate::{IoError, write};
 
 /// What a caller knows about a file that its header may not say.
@@ -31,6 +32,8 @@ pub struct FileInfo {
     pub width: usize,
     /// Rows.
     pub height: usize,
+    /// Where its pixels stand.
+    pub window: Window,
     /// Layers, such as `color`, `color.variance`, `albedo`, `part0`, sorted.
     pub layers: Vec<String>,
     /// Mean samples per pixel, if the header says.
@@ -62,9 +65,32 @@ pub fn read_info(path: impl AsRef<Path>) -> Result<FileInfo, IoError> {
     let opened = Opened::open(path.as_ref())?;
     let layers = Layers::find(&opened, |_, _| true)?;
     let Facts { provenance, spp, sampling, .. } = attributes::facts(&opened.file, &opened.attributes)?;
-    let (width, height) = (opened.width, opened.height);
+    let (width, height, window) = (opened.width, opened.height, opened.window);
     let (titles, findings) = (layers.titles(), layers.findings);
-    Ok(FileInfo { width, height, layers: titles, spp, sampling, provenance, findings })
+    Ok(FileInfo { width, height, window, layers: titles, spp, sampling, provenance, findings })
+}
+
+/// What the header of any image says, whatever its channels: what must be known before two files are held against each
+/// other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FileOrigin {
+    /// Where its pixels stand.
+    pub window: Window,
+    /// Where it came from, as far as the attributes can be understood.
+    pub provenance: Provenance,
+    /// Mean samples per pixel, if the header says.
+    pub spp: Option<f64>,
+}
+
+/// Reads of a header what does not depend on the channels. Nothing is decoded.
+///
+/// # Errors
+/// As [`read_frame`] for a file that is unreadable, not EXR, malformed, unsupported or too large.
+pub fn read_origin(path: impl AsRef<Path>) -> Result<FileOrigin, IoError> {
+    let opened = Opened::open(path.as_ref())?;
+    let facts = attributes::facts(&opened.file, &opened.attributes).ok();
+    let (provenance, spp) = facts.map(|facts| (facts.provenance, facts.spp)).unwrap_or_default();
+    Ok(FileOrigin { window: opened.window, provenance, spp })
 }
 
 /// Reads all header attributes that are text or numbers, as text.

@@ -5,6 +5,7 @@ use noisefloor_frame::{Counts, Estimate, Flash, Frame, FrameError, Image, Refere
 
 use crate::encode::{Plane, Values};
 use crate::names::{Layer, Statistic, channel_name, default_channels, parse, title};
+use crate::window::Window;
 use crate::{Destination, IoError, attributes, encode};
 
 /// Writes a frame as one multi-layer EXR file, 32-bit floats, ZIP-compressed, atomically, or to whatever else the
@@ -41,7 +42,28 @@ pub fn write_image(
     image: &Image,
     attributes: &BTreeMap<String, String>,
 ) -> Result<(), IoError> {
-    let to = to.into();
+    plain(&to.into(), image, attributes, None)
+}
+
+/// Writes a plain image like [`write_image`], at a place in a picture: that of the frame that it was made from.
+///
+/// # Errors
+/// As [`write_image`].
+pub fn write_image_at(
+    to: impl Into<Destination>,
+    image: &Image,
+    attributes: &BTreeMap<String, String>,
+    window: &Window,
+) -> Result<(), IoError> {
+    plain(&to.into(), image, attributes, Some(window))
+}
+
+fn plain(
+    to: &Destination,
+    image: &Image,
+    attributes: &BTreeMap<String, String>,
+    window: Option<&Window>,
+) -> Result<(), IoError> {
     let names = default_channels(image.channels());
     let planes = names
         .into_iter()
@@ -49,7 +71,7 @@ pub fn write_image(
         .map(|(name, plane)| Plane { name, values: Values::Float(plane) })
         .collect();
     let attributes = attributes::of_text(to.name(), attributes, &[])?;
-    encode::write(&to, image.width(), image.height(), planes, attributes)
+    encode::write(to, image.width(), image.height(), planes, attributes, window)
 }
 
 fn write_parts(to: &Destination, frame: &Frame, parts: &[Image]) -> Result<(), IoError> {
@@ -80,7 +102,7 @@ fn write_parts(to: &Destination, frame: &Frame, parts: &[Image]) -> Result<(), I
         planes.image(&Layer::Part(k), Statistic::Mean, part)?;
     }
     let attributes = attributes::of_frame(path, &frame.provenance, &frame.samples, frame.sampling)?;
-    encode::write(to, frame.width(), frame.height(), planes.planes, attributes)
+    encode::write(to, frame.width(), frame.height(), planes.planes, attributes, None)
 }
 
 /// Collects channels under their names.

@@ -42,5 +42,5 @@ pub use prepare::Prepared;
 pub use progress::{Progress, Silent};
 pub use record::{Keep, Quantity, Record, available};
 pub use render::{render, render_reference};
-pub use request::{DEEPEST, LONGEST_SEQUENCE, REVISION, RenderRequest, sequence_seed};
+pub use request::{DEEPEST, LONGEST_SEQUENCE, Purpose, REVISION, RenderRequest, sequence_seed, usual_seed};
 pub use rounds::Rounds;

@@ -18,6 +18,36 @@ pub fn sequence_seed(seed: u64, frame: u32) -> u64 {
     if frame == 0 { seed } else { crate::sampler::pixel_key(seed ^ SEQUENCE, u64::from(frame)) }
 }
 
+/// What an image is rendered for: inputs that must be independent are drawn from different streams of random numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// A noisy frame of so many samples per pixel: frames of different numbers must not share samples.
+    Frame {
+        /// Samples per pixel.
+        spp: u32,
+    },
+    /// A reference in parts, of so many samples per pixel in all.
+    Reference {
+        /// Samples per pixel.
+        spp: u32,
+    },
+}
+
+/// Random seed of an image for which nobody has chosen one, below 2³¹: the same for the same purpose, another one for
+/// every other purpose.
+#[must_use]
+pub fn usual_seed(purpose: Purpose) -> u64 {
+    let (stream, number) = match purpose {
+        Purpose::Frame { spp } => (FRAME, spp),
+        Purpose::Reference { spp } => (REFERENCE, spp),
+    };
+    crate::sampler::pixel_key(stream, u64::from(number)) >> 33
+}
+
+/// Streams of [`usual_seed`].
+const FRAME: u64 = 0x6672_616D_6500_0000;
+const REFERENCE: u64 = 0x7265_6665_7265_6E63;
+
 /// Keeps the seeds of a sequence apart from everything else that is derived from a seed.
 const SEQUENCE: u64 = 0x7365_7175_656E_6365;
 
@@ -131,5 +161,27 @@ pub(crate) fn check_size(width: usize, height: usize) -> Result<(), RenderError>
             value: format!("{width}×{height}"),
             expected: "1 to 2^28 pixels".into(),
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn purposes_levels_and_frames_of_a_sequence_have_seeds_of_their_own() {
+        let mut seen = BTreeSet::new();
+        for spp in [1, 2, 4, 16, 64, 256, 1024, u32::MAX] {
+            for purpose in [Purpose::Frame { spp }, Purpose::Reference { spp }] {
+                for frame in 0..4 {
+                    assert!(seen.insert(sequence_seed(usual_seed(purpose), frame)), "{purpose:?} {frame}");
+                }
+            }
+        }
+        // Nobody who counts seeds from 0 meets one of them.
+        assert!(seen.iter().all(|seed| *seed > 1 << 20), "{seen:?}");
+        assert_eq!(usual_seed(Purpose::Frame { spp: 16 }), usual_seed(Purpose::Frame { spp: 16 }));
     }
 }

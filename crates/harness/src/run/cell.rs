@@ -17,6 +17,7 @@ use crate::observer::Stage;
 use crate::plan::{Plan, Row, wants_diagnostics};
 use crate::record::{AdaptiveRecord, NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
 use crate::run::denoise::{Denoised, denoise};
+use crate::run::inputs::Inputs;
 use crate::run::prepare::{damaged_files, kept_context, truth};
 use crate::run::settle::Owners;
 use crate::run::{BOOTSTRAP_IMAGES, StudyRun, bootstrap_seed};
@@ -52,8 +53,9 @@ impl Runner<'_> {
             let text = format!("{file} is not what was written or is gone; it is written again");
             self.request.observer.warning(&text);
         }
-        let (truth, context) = truth(scene, self.cache, self.layout, self.request.observer)?;
+        let (truth, mut context) = truth(scene, self.cache, self.layout, self.request.observer)?;
         let measurer = truth.measurer(scene)?;
+        let mut inputs = Inputs::open(scene, self.layout, &truth.reference, &mut context);
         for (spec, rows) in work {
             self.request.observer.stage(&Stage::Frame {
                 scene: scene.id.clone(),
@@ -83,13 +85,10 @@ impl Runner<'_> {
                 negative_variances: hygiene.negative_variances,
                 output_values: 0,
             };
-            let measure = Measure::new(
-                frame,
-                &truth.reference,
-                &truth.classes,
-                &hygiene.without_statistics(),
-                scene.single(),
-            );
+            let without = hygiene.without_statistics();
+            let mut findings = findings;
+            findings.extend(inputs.frame(&spec, frame, &without, &mut context)?);
+            let measure = Measure::new(frame, &truth.reference, &truth.classes, &without, scene.single());
             let cell = Cell {
                 runner: self,
                 measurer: &measurer,

@@ -3,7 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-use noisefloor_frame::{Finding, Reference};
+use noisefloor_frame::{Finding, FindingKind, Reference};
+use noisefloor_inputs::{Origin, shared_seed};
 use noisefloor_io::{FileInfo, FrameFile, FrameFolder, ReadOptions, read_checked_reference, read_frame_file};
 use serde_json::json;
 
@@ -47,6 +48,8 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         });
         files.insert((frame.spp, replicate), frame.path.clone());
     }
+    let findings: Vec<Finding> =
+        seeds(&folder)?.into_iter().map(|found| found.within(&spec.id)).collect();
     let info = &folder.reference_info;
     let mut settings = BTreeMap::from([
         ("sampling".to_owned(), folder.frames[0].info.sampling.name().to_owned()), // at least one frame by contract
@@ -75,7 +78,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         sampling: folder.frames[0].info.sampling,
         settings,
         frames,
-        findings: layer_findings(&spec.id, &folder),
+        findings: findings.into_iter().chain(layer_findings(&spec.id, &folder)).collect(),
         extra_features: layers(&folder),
         reference_key: file_key(&folder.reference, info, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
@@ -90,6 +93,41 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
 /// Names of all layers that some frame has.
 fn layers(folder: &FrameFolder) -> BTreeSet<String> {
     folder.frames.iter().flat_map(|frame| frame.info.layers.iter().cloned()).collect()
+}
+
+/// Frames and reference must not be made from the same random numbers.
+///
+/// # Errors
+/// [`HarnessError::SharedSeed`] where the headers prove it; where they only make it likely, the first pair is a finding.
+fn seeds(folder: &FrameFolder) -> Result<Vec<Finding>, HarnessError> {
+    let files: Vec<(&Path, &FileInfo)> =
+        std::iter::once((folder.reference.as_path(), &folder.reference_info))
+            .chain(folder.frames.iter().map(|frame| (frame.path.as_path(), &frame.info)))
+            .collect();
+    let origin = |info: &FileInfo| Origin { provenance: &info.provenance, spp: info.spp };
+    let mut likely = Vec::new();
+    for (k, (second, info)) in files.iter().enumerate() {
+        for (first, other) in &files[..k] {
+            let Some(shared) = shared_seed(origin(other), origin(info)) else { continue };
+            let (first, second) = (first.to_path_buf(), second.to_path_buf());
+            if shared.proven {
+                return Err(HarnessError::SharedSeed { first, second, seed: shared.seed });
+            }
+            likely.push((first, second, shared.seed));
+        }
+    }
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let rest = match likely.len().saturating_sub(1) {
+        0 => String::new(),
+        more => format!(", and {more} more pairs"),
+    };
+    let told = likely.first().map(|(first, second, seed)| {
+        let text = format!(
+            "name the same scene, renderer, sampler and random seed {seed}{rest}: with many renderers they share samples"
+        );
+        Finding::new(FindingKind::SharedSeed, format!("{} and {}", name(first), name(second)), text)
+    });
+    Ok(told.into_iter().collect())
 }
 
 /// Hash of a file's bytes, and of what its header is taken to say: another reading of channel names is another frame.
