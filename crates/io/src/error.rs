@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 use noisefloor_frame::FrameError;
 use thiserror::Error;
 
+use crate::Window;
+
 /// What can go wrong with a file or a folder. Every message starts with its path.
 #[derive(Debug, Error)]
 #[non_exhaustive]

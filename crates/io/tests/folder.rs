@@ -7,7 +7,8 @@ use std::path::Path;
 use common::estimate;
 use noisefloor_frame::{Frame, Reference, Samples, Sampling};
 use noisefloor_io::{
-    FrameFolder, IoError, ReadOptions, scan_scenes, write_frame, write_image, write_reference,
+    Area, FrameFolder, IoError, ReadOptions, Window, read_origin, scan_scenes, write_frame, write_image,
+    write_image_at, write_reference,
 };
 
 const HEADER: ReadOptions = ReadOptions { spp: None, max_decoded_bytes: None };
@@ -86,6 +87,17 @@ fn what_is_missing_or_does_not_fit_is_named() {
         matches!(&error, IoError::SizeMismatch { file, width: 6, expected_width: 5, .. } if *file == at("wider.exr"))
     );
     std::fs::remove_file(at("wider.exr")).unwrap();
+    // The same size at another place of the picture.
+    let area = |origin| Area { origin, size: (5, 4) };
+    let window = Window { data: area((1, 0)), display: area((1, 0)) };
+    write_image_at(at("moved.exr"), &common::image(5, 4, 3, 3), &common::no_attributes(), &window).unwrap();
+    let error = scan().unwrap_err();
+    assert!(matches!(&error, IoError::WindowMismatch { .. }), "{error}");
+    let text = error.to_string();
+    assert!(text.contains("moved.exr") && text.contains("5×4 at (1, 0)"), "{text}");
+    assert!(text.contains("reference.exr") && text.contains("5×4 at (0, 0)"), "{text}");
+    assert_eq!(read_origin(at("moved.exr")).unwrap().window, window);
+    std::fs::remove_file(at("moved.exr")).unwrap();
     write_image(at("b.exr"), &common::image(5, 4, 3, 3), &common::no_attributes()).unwrap();
     assert!(matches!(scan(), Err(IoError::MissingSpp { file }) if file == at("b.exr")));
     let known =

@@ -104,7 +104,9 @@ fn seeds(folder: &FrameFolder) -> Result<Vec<Finding>, HarnessError> {
         std::iter::once((folder.reference.as_path(), &folder.reference_info))
             .chain(folder.frames.iter().map(|frame| (frame.path.as_path(), &frame.info)))
             .collect();
-    let origin = |info: &FileInfo| Origin { provenance: &info.provenance, spp: info.spp };
+    fn origin(info: &FileInfo) -> Origin<'_> {
+        Origin { provenance: &info.provenance, spp: info.spp }
+    }
     let mut likely = Vec::new();
     for (k, (second, info)) in files.iter().enumerate() {
         for (first, other) in &files[..k] {

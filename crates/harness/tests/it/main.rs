@@ -7,6 +7,7 @@ mod findings;
 mod flicker;
 mod frames;
 mod import;
+mod inputs;
 mod kept;
 mod limits;
 mod outcomes;

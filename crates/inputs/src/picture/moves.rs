@@ -117,8 +117,6 @@ fn moves(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Optio
     let mut best: Option<(Move, f64, f64)> = None;
     for candidate in candidates {
         let mut rows = vec![[0.0f64; 2]; height.div_ceil(step)];
-        // Sums for the correlation of x with the moved reference.
-        let mut c = [0.0f64; 6];
         for (row, y) in rows.iter_mut().zip((0..height).step_by(step)) {
             for column in 0..width {
                 let pixel = y * width + column;
@@ -131,31 +129,36 @@ fn moves(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Optio
                 if w > 0.0 {
                     row[0] += (t - r) * (2.0 * x - r - t) / w;
                     row[1] += (t - r) * (t - r) / w;
-                    let (a, b) = (x / w.sqrt(), t / w.sqrt());
-                    c = [c[0] + 1.0, c[1] + a, c[2] + b, c[3] + a * a, c[4] + b * b, c[5] + a * b];
                 }
             }
         }
         let Some((l, error)) = position(&rows) else { continue };
-        if l >= LEAST
-            && l >= LEAST_ERRORS * error
-            && alike(c)
-            && best.is_none_or(|(_, other, _)| l > other + 1e-9)
-        {
+        if l >= LEAST && l >= LEAST_ERRORS * error && best.is_none_or(|(_, other, _)| l > other + 1e-9) {
             best = Some((candidate, l, l / error.max(1e-12)));
         }
     }
-    let (found, _, z) = best?;
+    let (found, _, z) = best.filter(|(found, ..)| alike(against, &xs, &rs, invalid, *found))?;
     let exposure =
         if gain == 1.0 { String::new() } else { format!(" and a factor of {}", super::number(1.0 / gain)) };
     Some((format!("{}{exposure}", found.name()), z.min(1e6)))
 }
 
-/// Whether two pictures show the same: their correlation, of which noise may take away a part.
-fn alike([n, a, b, aa, bb, ab]: [f64; 6]) -> bool {
-    let covariance = ab - a * b / n.max(1.0);
-    let (va, vb) = (aa - a * a / n.max(1.0), bb - b * b / n.max(1.0));
-    va > 0.0 && vb > 0.0 && covariance / (va * vb).sqrt() >= ALIKE
+/// Whether the frame shows the same as the moved reference: correlation of block means, of which noise may take away a
+/// part.
+fn alike(against: &Against<'_>, xs: &[f32], rs: &[f32], invalid: &[bool], found: Move) -> bool {
+    let r = against.reference.mean();
+    let (width, height) = (r.width(), r.height());
+    let mut sums = vec![(0.0, 0.0, 0.0); against.blocks.count()];
+    for pixel in (0..r.pixels()).filter(|&p| against.usable(p, invalid) && xs[p].is_finite()) {
+        let from = found.of(pixel % width, pixel / width, width, height);
+        if let Some(from) = from.filter(|&from| against.usable(from, &[])) {
+            let s = &mut sums[against.blocks.of(pixel)];
+            *s = (s.0 + f64::from(xs[pixel]), s.1 + f64::from(rs[from]), s.2 + 1.0);
+        }
+    }
+    let means: Vec<(f64, f64)> =
+        sums.into_iter().filter(|s| s.2 > 0.0).map(|(a, b, n)| (a / n, b / n)).collect();
+    super::tone::correlation(&means) >= ALIKE
 }
 
 /// Exchanged channels, such as BGR for RGB.

@@ -114,7 +114,7 @@ fn distance(means: &[(f64, f64)], gain: f64) -> Option<f64> {
 }
 
 /// Correlation of the logarithms of block means.
-fn correlation(means: &[(f64, f64)]) -> f64 {
+pub(super) fn correlation(means: &[(f64, f64)]) -> f64 {
     let logs: Vec<(f64, f64)> =
         means.iter().filter(|(a, b)| *a > 0.0 && *b > 0.0).map(|(a, b)| (a.ln(), b.ln())).collect();
     let n = logs.len().max(1) as f64;
