@@ -6,13 +6,15 @@
 mod findings;
 mod json;
 mod maps;
+mod pair;
 mod text;
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use anyhow::{Context as _, bail};
+use anyhow::Context as _;
 use noisefloor_frame::{Finding, Image, sorted_findings};
+use noisefloor_inputs::Against;
 use noisefloor_io::{ReadOptions, read_checked_reference, read_color};
 use noisefloor_metrics::{Measured, Measurer, trimmed_count};
 
@@ -56,31 +58,23 @@ impl Compared<'_> {
 
 pub fn run(args: &Compare) -> anyhow::Result<Exit> {
     let plan = maps::plan(args)?;
+    // Headers first: nothing is decoded of files that cannot be held against each other.
+    let pair = pair::Headers::read(args)?;
     // The sample count of a reference plays no part here, so a file without one is fine.
     let (reference, found) =
         read_checked_reference(&args.reference, &ReadOptions { spp: Some(1), ..ReadOptions::default() })?;
     let name = args.reference.display().to_string();
     let of_reference: Vec<Finding> = found.into_iter().map(|finding| finding.within(&name)).collect();
     let measurer = Measurer::new(&reference, None).with_context(|| args.reference.display().to_string())?;
-    let mean = reference.mean();
+    let against = Against::new(&reference, pair.reference.spp);
     let mut all = Vec::new();
     for path in &args.images {
         let image = read_color(path)?;
-        if !image.same_shape(mean) {
-            bail!(
-                "{} is {}×{} but {} is {}×{}",
-                path.display(),
-                image.width(),
-                image.height(),
-                args.reference.display(),
-                mean.width(),
-                mean.height()
-            );
-        }
+        let inputs = pair.check(&against, &reference, path, &image)?;
         let measured = measurer
             .measure(&image)
             .with_context(|| format!("{} against {}", path.display(), args.reference.display()))?;
-        let findings = findings::of_pair(path, &measured).into_iter().chain(of_reference.clone());
+        let findings = findings::of_pair(path, &measured, inputs).into_iter().chain(of_reference.clone());
         let findings = sorted_findings(findings);
         all.push(Compared { path, image, measured, findings, map: None });
     }

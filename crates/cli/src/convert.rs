@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_io::{IoError, read_attributes, read_color, read_image};
+use noisefloor_io::{IoError, read_attributes, read_color, read_image, read_origin};
 
 use crate::args::Convert;
 use crate::exit::Exit;
@@ -17,6 +17,6 @@ pub fn run(args: &Convert) -> anyhow::Result<Exit> {
         other => other?,
     };
     let attributes: BTreeMap<String, String> = read_attributes(&args.input)?;
-    output.image(&image, &attributes)?.tell("")?;
+    output.image(&image, &attributes, &read_origin(&args.input)?.window)?.tell("")?;
     Ok(Exit::Done)
 }

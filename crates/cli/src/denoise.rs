@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use noisefloor_denoiser::{Diagnostics, Input};
-use noisefloor_io::{ReadOptions, read_info, same_file, write_image};
+use noisefloor_io::{ReadOptions, read_info, read_origin, same_file, write_image_at};
 use serde_json::{Map, Value, json};
 
 use crate::args::Denoise;
@@ -45,7 +45,8 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     let non_finite_output = made.image.count_non_finite();
     input::as_read(&method.id, &mut made.image, &hygiene);
 
-    let main = output.image(&made.image, &attributes(args, &method.params))?;
+    let window = read_origin(&args.frame)?.window;
+    let main = output.image(&made.image, &attributes(args, &method.params), &window)?;
     let mut written = Vec::new();
     if args.diagnostics {
         let probe = args.probe.map(|p| (p.x, p.y));
@@ -53,7 +54,8 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
         let titles: Vec<&str> = with.diagnostics.iter().map(|(name, _)| name.as_str()).collect();
         let paths = diagnostic_paths(&args.output, &titles);
         for ((name, image), path) in with.diagnostics.iter().zip(paths) {
-            write_image(&path, image, &BTreeMap::from([("diagnostic".to_owned(), name.clone())]))?;
+            let named = BTreeMap::from([("diagnostic".to_owned(), name.clone())]);
+            write_image_at(&path, image, &named, &window)?;
             written.push((name.clone(), path));
         }
     }

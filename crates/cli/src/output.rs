@@ -6,7 +6,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{Frame, Image, Reference};
-use noisefloor_io::{Destination, IoError, write_frame, write_image, write_reference};
+use noisefloor_io::{Destination, IoError, Window, write_frame, write_image_at, write_reference};
 use noisefloor_report::{Picture, picture};
 use serde_json::{Value, json};
 
@@ -93,9 +93,14 @@ impl Output {
         Self { to: path.into(), ..self.clone() }
     }
 
-    /// Writes an image with attributes.
-    pub fn image(&self, image: &Image, attributes: &BTreeMap<String, String>) -> anyhow::Result<Written<'_>> {
-        self.put(image, || write_image(self.to.clone(), image, attributes))
+    /// Writes an image with attributes, at the place in the picture of what it was made from.
+    pub fn image(
+        &self,
+        image: &Image,
+        attributes: &BTreeMap<String, String>,
+        window: &Window,
+    ) -> anyhow::Result<Written<'_>> {
+        self.put(image, || write_image_at(self.to.clone(), image, attributes, window))
     }
 
     /// Writes a frame; a PNG shows its colour alone.

@@ -58,6 +58,9 @@ pub use noisefloor_io as io;
 /// Study files, runs and their analysis.
 pub use noisefloor_harness as harness;
 
+/// Inputs held against each other.
+pub use noisefloor_inputs as inputs;
+
 /// Image metrics.
 pub use noisefloor_metrics as metrics;
 
