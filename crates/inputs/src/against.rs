@@ -117,7 +117,7 @@ impl<'a> Against<'a> {
         let blocks = sums(self, frame, invalid);
         out.findings.extend(dependence::frame(self, frame, invalid));
         let independent = out.findings.is_empty();
-        let whole = brightness::whole(self, frame, &blocks);
+        let whole = brightness::whole(frame, &blocks);
         let picture = picture::frame(self, &frame.color.mean, invalid, &blocks, whole);
         let another = picture.is_some();
         out.findings.extend(picture);

@@ -1,11 +1,10 @@
 //! The frames of a scene among each other, from their sketches.
 
 use noisefloor_frame::{Finding, FindingKind};
-use noisefloor_stats::t_two_sided_p;
 
 use crate::against::Against;
 use crate::brightness::shrunk;
-use crate::{ALPHA, SCENE_ALPHA, Sketch};
+use crate::{ALPHA, SCENE_ALPHA, Sketch, p_value};
 
 /// Smallest relative difference of all frames together that is told.
 const LEAST_EFFECT: f64 = 1e-3;
@@ -77,7 +76,7 @@ fn correlated(against: &Against<'_>, a: &Sketch, b: &Sketch, frames: usize) -> O
     // Shared samples correlate by this much; distances may be correlated by less for other reasons.
     let expected = (a.spp.min(b.spp) / a.spp.max(b.spp)).sqrt();
     let least = if halves { LEAST_CORRELATION } else { LEAST_CORRELATION.max(0.5 * expected) };
-    let significant = z > 0.0 && t_two_sided_p(z, n as u64 - 1) * pairs.sqrt() <= ALPHA;
+    let significant = z > 0.0 && p_value(z, n as u64 - 1) * pairs <= ALPHA;
     (rho >= least && significant).then_some((rho, z))
 }
 
@@ -103,7 +102,7 @@ fn brightness(against: &Against<'_>, frames: &[(String, Sketch)]) -> Option<Find
     let z = shrunk(s, variance, third / weight.powi(3));
     let light: f64 = against.light();
     let relative = s / light;
-    let certain = t_two_sided_p(z, 1000) <= SCENE_ALPHA && relative.abs() >= LEAST_EFFECT;
+    let certain = p_value(z, 1000) <= SCENE_ALPHA && relative.abs() >= LEAST_EFFECT;
     certain.then(|| {
         let how = if z > 0.0 { "brighter" } else { "darker" };
         let text = format!(

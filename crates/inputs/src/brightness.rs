@@ -7,12 +7,12 @@
 //! as there are bright samples.
 
 use noisefloor_frame::{Finding, FindingKind, Frame, Sampling};
-use noisefloor_stats::{holm_adjusted, t_two_sided_p};
+use noisefloor_stats::holm_adjusted;
 
-use crate::ALPHA;
 use crate::against::Against;
 use crate::blocks::median;
 use crate::sums::Sums;
+use crate::{ALPHA, p_value};
 
 /// Whether and how the brightness of a whole frame was tested.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,9 +40,6 @@ pub(crate) const LEAST_EFFECTIVE: f64 = 30.0;
 
 /// Smallest relative difference that is told: above what half precision does to constant pixels.
 const LEAST_EFFECT: f64 = 2e-3;
-
-/// Most of the pixels with zero variance that may be so by chance, where the reference cannot say what they miss.
-const MISSED: f64 = 0.0;
 
 /// Variance of S, its parts and its third moment.
 #[derive(Debug, Clone, Copy)]
@@ -73,7 +70,7 @@ fn spread(frame: &Frame, sums: &Sums, together: f64, between: f64) -> Result<Spr
         least = least.min(effective(sums.predicted, sums.predicted2));
         variance = variance.max(together * (sums.predicted + sums.reference));
     }
-    let missed = states && sums.silent > sums.constant + MISSED * n;
+    let missed = states && sums.silent > sums.constant;
     if least < LEAST_EFFECTIVE || (missed && !predicts) {
         return Err(least.min(if missed { LEAST_EFFECTIVE - 1.0 } else { least }));
     }
@@ -95,9 +92,8 @@ pub(crate) fn shrunk(s: f64, variance: f64, third: f64) -> f64 {
 }
 
 /// The whole image.
-pub(crate) fn whole(against: &Against<'_>, frame: &Frame, blocks: &[Sums]) -> Brightness {
+pub(crate) fn whole(frame: &Frame, blocks: &[Sums]) -> Brightness {
     let all = Sums::total(blocks);
-    let _ = against;
     if all.pixels < LEAST_EFFECTIVE || all.light <= 0.0 {
         return Brightness::NotTested;
     }
@@ -106,7 +102,7 @@ pub(crate) fn whole(against: &Against<'_>, frame: &Frame, blocks: &[Sums]) -> Br
         Ok(spread) => {
             let z = shrunk(all.e, spread.variance, spread.third);
             let freedom = effective_freedom(frame, &all);
-            Brightness::Tested { z, p: t_two_sided_p(z, freedom), ratio: all.seen / all.light }
+            Brightness::Tested { z, p: p_value(z, freedom), ratio: all.seen / all.light }
         }
     }
 }
@@ -176,7 +172,7 @@ fn local(against: &Against<'_>, frame: &Frame, blocks: &[Sums]) -> Option<Findin
             let freedom = effective_freedom(frame, sums)
                 .min((sums.e2 * sums.e2 / sums.e4.max(f64::MIN_POSITIVE)) as u64)
                 .max(2);
-            tested.push((index, z, t_two_sided_p(z, freedom), sums.seen / sums.light));
+            tested.push((index, z, p_value(z, freedom), sums.seen / sums.light));
         }
     }
     let adjusted = holm_adjusted(&tested.iter().map(|t| t.2).collect::<Vec<_>>());

@@ -8,11 +8,10 @@
 //! standard errors over pixels and over blocks.
 
 use noisefloor_frame::{Finding, FindingKind, Frame, Image};
-use noisefloor_stats::t_two_sided_p;
 
-use crate::ALPHA;
 use crate::against::{Against, grey};
 use crate::sums::sums;
+use crate::{ALPHA, p_value};
 
 /// Smallest correlation that is told.
 const LEAST_CORRELATION: f64 = 0.03;
@@ -30,7 +29,7 @@ pub(crate) fn frame(against: &Against<'_>, frame: &Frame, invalid: &[bool]) -> O
         let worst = tests.into_iter().flatten().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         if let Some((rho, z, blocks)) = worst
             && rho.abs() >= LEAST_CORRELATION
-            && t_two_sided_p(z, blocks) <= ALPHA
+            && p_value(z, blocks) <= ALPHA
         {
             return Some(told(rho, z));
         }

@@ -85,8 +85,8 @@ const SAME: f64 = 1e-3;
 /// One [`Sums`] per block; `invalid` flags pixels to leave out (empty: none).
 pub(crate) fn sums(against: &Against<'_>, frame: &Frame, invalid: &[bool]) -> Vec<Sums> {
     let (x, r) = (&frame.color.mean, against.reference.mean());
-    let image = |variance: &Option<Variance>| variance.as_ref().map(|v| v.mean_variance().clone());
-    let (v, v_r) = (image(&frame.color.variance), image(&against.reference.frame.color.variance));
+    let v = frame.color.variance.as_ref().map(Variance::mean_variance);
+    let v_r = against.reference.frame.color.variance.as_ref().map(Variance::mean_variance);
     let scale = against.spp.zip(frame.samples.total().uniform()).map(|(long, n)| long / f64::from(n));
     let mut out = vec![Sums::default(); against.blocks.count()];
     for pixel in 0..x.pixels() {
@@ -97,7 +97,8 @@ pub(crate) fn sums(against: &Against<'_>, frame: &Frame, invalid: &[bool]) -> Ve
         let w = against.weights[block];
         let at = |image: &noisefloor_frame::Image| [0, 1, 2].map(|c| f64::from(image.plane(c)[pixel]));
         let (a, b) = (at(x), at(r));
-        if a.iter().any(|value| !value.is_finite()) {
+        let unknown = |image: &noisefloor_frame::Image| at(image).iter().any(|value| !value.is_finite());
+        if unknown(x) || v.is_some_and(unknown) || v_r.is_some_and(unknown) {
             continue;
         }
         let sum = |values: [f64; 3]| values.iter().sum::<f64>();
@@ -114,13 +115,13 @@ pub(crate) fn sums(against: &Against<'_>, frame: &Frame, invalid: &[bool]) -> Ve
         s.seen += w * sum(a) / 3.0;
         let rounding = |value: f64| ROUNDING * value * value;
         let magnitude = sum(a.map(f64::abs)).max(sum(b.map(f64::abs)));
-        if let Some(v) = &v {
+        if let Some(v) = v {
             let v = sum(at(v).map(|v| v.max(0.0)));
             s.stated += w * w * v / 9.0;
             s.stated2 += (w * w * v / 9.0).powi(2);
             s.silent += f64::from(v <= rounding(magnitude));
         }
-        let constant = match &v_r {
+        let constant = match v_r {
             Some(v_r) => {
                 let v = sum(at(v_r).map(|v| v.max(0.0)));
                 let own = w * w * v / 9.0;

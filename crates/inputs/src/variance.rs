@@ -6,12 +6,11 @@
 //! 2.
 
 use noisefloor_frame::{Finding, FindingKind, Frame};
-use noisefloor_stats::t_two_sided_p;
 
-use crate::ALPHA;
 use crate::against::Against;
 use crate::blocks::median;
 use crate::sums::Sums;
+use crate::{ALPHA, p_value};
 
 /// Smallest factor that is told, either way.
 const LEAST_FACTOR: f64 = 2.0;
@@ -61,7 +60,7 @@ pub(crate) fn frame(against: &Against<'_>, frame: &Frame, blocks: &[Sums], diffe
         return None;
     }
     let z = found.log / found.error.max(1e-12);
-    let significant = t_two_sided_p(z, found.blocks as u64 - 1) <= ALPHA;
+    let significant = p_value(z, found.blocks as u64 - 1) <= ALPHA;
     let agrees = found.middle * found.log > 0.0 && found.middle.abs() >= 0.5 * LEAST_FACTOR.ln();
     // An unknown variance of the reference makes the distance larger than the frame's variance says.
     let known = against.exact
@@ -116,7 +115,7 @@ pub(crate) fn shared(against: &Against<'_>, frame: &Frame, blocks: &[Sums]) -> O
     let expected = ((1.0 + share) / (1.0 - share)).ln();
     let fits = (found.log - expected).abs() <= 3.0 * found.error + 0.2 * expected;
     let agrees = found.middle >= 0.5 * expected;
-    if !fits || !agrees || z <= 0.0 || t_two_sided_p(z, found.blocks as u64 - 1) > ALPHA {
+    if !fits || !agrees || z <= 0.0 || p_value(z, found.blocks as u64 - 1) > ALPHA {
         return None;
     }
     let text = format!(

@@ -60,7 +60,7 @@ fn frames_of_the_usual_seed_are_independent_and_of_one_seed_are_refused() {
     for (spp, name) in [("16", "a16.exr"), ("64", "a64.exr"), ("256", "reference.exr")] {
         render(at, spp, &format!("shared/{name}"), &["--seed", "5"]);
     }
-    let run = ["run", "shared", "--out", "out", "--cache", "cache", "--method", "mc", "-q"];
+    let run = ["run", "shared", "--out", "out", "--cache", "cache", "-q"];
     let told = refused(at, &run);
     assert!(told.contains("a16.exr") && told.contains("reference.exr") && told.contains("seed 5"), "{told}");
     assert!(!at.join("out/results.jsonl").exists(), "nothing was run");

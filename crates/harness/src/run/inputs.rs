@@ -71,7 +71,6 @@ impl<'a> Inputs<'a> {
             .collect();
         book.frames.retain(|key, _| planned.contains(key));
         let of_reference = format!("{}: reference", scene.id);
-        context.findings.extend(scene.findings.iter().cloned().map(|found| found.within(&scene.id)));
         context.findings.extend(against.alone().into_iter().map(|found| found.within(&of_reference)));
         Self { scene, layout, against, book, before: context.findings.clone() }
     }
