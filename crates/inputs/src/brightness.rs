@@ -3,7 +3,7 @@
 //! S = Σ w(g_x − g_r) over pixels, with g the mean of the channels (a pixel is one cluster) and w the inverse of the
 //! brightness around. Its variance is the largest of what the residuals show, pixel by pixel and by blocks, what the frame
 //! states and what the reference predicts for the frame's number of samples, which knows of rare light that the frame's
-//! own samples missed. z is shrunk for skewness (Johnson 1978), and judged by Student's t with as many degrees of freedom
+//! own samples missed. z is shrunk for skewness (Hall 1992), and judged by Student's t with as many degrees of freedom
 //! as there are bright samples.
 
 use noisefloor_frame::{Finding, FindingKind, Frame, Sampling};
@@ -84,11 +84,9 @@ pub(crate) fn shrunk(s: f64, variance: f64, third: f64) -> f64 {
     }
     let z = s / variance.sqrt();
     let skew = third / variance.powf(1.5);
-    let johnson = z + skew * z * z / 3.0 + skew / 6.0;
-    match johnson * z <= 0.0 {
-        true => 0.0,
-        false => z.abs().min(johnson.abs()).copysign(z),
-    }
+    // Monotone in z, so that large differences stay large whatever their skewness.
+    let hall = z + skew * z * z / 3.0 + skew * skew * z.powi(3) / 27.0 + skew / 6.0;
+    if hall * z <= 0.0 { 0.0 } else { z.abs().min(hall.abs()).copysign(z) }
 }
 
 /// The whole image.

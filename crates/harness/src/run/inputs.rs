@@ -22,8 +22,8 @@ struct Book {
     version: u32,
     /// Hash of what determines the reference that the sketches are about.
     reference: Key,
-    /// By the hash of what determines the frame.
-    frames: BTreeMap<Key, Page>,
+    /// By [`place`].
+    frames: BTreeMap<String, Page>,
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,11 @@ impl Page {
     fn name(&self) -> String {
         format!("{} spp, replicate {}", self.spp, self.replicate)
     }
+}
+
+/// What tells a frame from others: two replicates may be the same file.
+fn place(spec: &FrameSpec) -> String {
+    format!("{} {} {}", spec.key, spec.samples(), spec.replicate)
 }
 
 /// The checks of a scene that runs.
@@ -64,10 +69,10 @@ impl<'a> Inputs<'a> {
             .filter(|book| book.version == VERSION && book.reference == scene.reference_key)
             .unwrap_or_default();
         (book.version, book.reference) = (VERSION, scene.reference_key.clone());
-        let planned: BTreeSet<Key> = scene
+        let planned: BTreeSet<String> = scene
             .frames
             .iter()
-            .flat_map(|frame| scene.rows.iter().map(move |row| scene.frame_of(frame, row).key))
+            .flat_map(|frame| scene.rows.iter().map(move |row| place(&scene.frame_of(frame, row))))
             .collect();
         book.frames.retain(|key, _| planned.contains(key));
         let of_reference = format!("{}: reference", scene.id);
@@ -93,7 +98,7 @@ impl<'a> Inputs<'a> {
         // were independent.
         if !placed {
             let page = Page { spp: spec.samples(), replicate: spec.replicate, sketch: check.sketch };
-            self.book.frames.insert(spec.key.clone(), page);
+            self.book.frames.insert(place(spec), page);
             self.together(context)?;
         }
         let subject = format!("{} at {} spp, replicate {}", self.scene.id, spec.samples(), spec.replicate);
