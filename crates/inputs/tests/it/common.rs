@@ -16,13 +16,13 @@ pub fn scene(law: SampleLaw, width: usize, height: usize) -> SyntheticScene {
         .with_common_channels(true)
 }
 
-/// Eight parts of 64 samples, drawn apart from every frame with a seed below 2³².
+/// Eight parts of 32 samples, drawn apart from every frame with a seed below 2³².
 pub fn reference(scene: &SyntheticScene) -> Reference {
-    let parts: Vec<Image> = (0..8).map(|k| scene.render(64, (1 << 40) + k).color.mean).collect();
-    Reference::from_parts(parts, 64, Sampling::Independent).unwrap()
+    let parts: Vec<Image> = (0..8).map(|k| scene.render(32, (1 << 40) + k).color.mean).collect();
+    Reference::from_parts(parts, 32, Sampling::Independent).unwrap()
 }
 
-pub const REFERENCE_SPP: f64 = 512.0;
+pub const REFERENCE_SPP: f64 = 256.0;
 
 pub fn check(reference: &Reference, frame: &Frame) -> FrameCheck {
     Against::new(reference, Some(REFERENCE_SPP)).frame(frame, &[], Mean::OfTheReference)

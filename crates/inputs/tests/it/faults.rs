@@ -28,7 +28,7 @@ fn a_variance_that_is_off_by_the_sample_count_is_told_from_the_reference() {
                     let factor = f64::from(spp).powf(power);
                     let told =
                         first(&truth, &stated(&frame, factor as f32), FindingKind::VarianceAgainstReference);
-                    // The reference adds at most 64/512 of the frame's own variance to both sides.
+                    // The reference adds at most 64/256 of the frame's own variance to both sides.
                     let value = told.value.unwrap();
                     assert!((value / factor).ln().abs() < 0.35, "{told} {value} {factor}");
                     assert!(told.text.contains(words) && told.standard_errors.unwrap() > 5.0, "{told}");
@@ -42,7 +42,7 @@ fn a_variance_that_is_off_by_the_sample_count_is_told_from_the_reference() {
 fn a_frame_that_is_one_percent_too_bright_is_told() {
     let scene = scene(GAUSSIAN, 96, 64);
     let truth = reference(&scene);
-    // z = 0.01·√6144 / (0.5/√64) = 12.5.
+    // z = 0.01·√6144 / (0.5/√64) = 12.5 without the reference's noise.
     let mut frame = scene.render(64, 7);
     for image in std::iter::once(&mut frame.color.mean).chain(frame.color.halves.iter_mut().flatten()) {
         *image = image.map(|v| v * 1.01);
@@ -57,7 +57,7 @@ fn frames_that_are_together_too_bright_are_told_where_none_is_alone() {
     let scene = scene(GAUSSIAN, 64, 48);
     let truth = reference(&scene);
     let against = Against::new(&truth, Some(REFERENCE_SPP));
-    // z of one = 0.007·√3072 / (0.5/√16) = 3.1; of four with the reference's noise 0.5/√512 in common: 5.8.
+    // z of one = 0.007·√3072 / (0.5/√16) = 3.1; of four with the reference's noise 0.5/√256 in common: 5.5.
     let sketches: Vec<_> = (0..4)
         .map(|seed| {
             let mut frame = scene.render(16, seed);
