@@ -39,8 +39,9 @@ pub use error::IoError;
 pub use folder::{FolderFrame, FrameFolder, scan_scenes};
 pub use limits::MAX_DECODED_BYTES;
 pub use read::{
-    FileInfo, FileOrigin, FrameFile, ReadOptions, read_attributes, read_checked_frame, read_checked_reference,
-    read_color, read_frame, read_frame_file, read_image, read_info, read_origin, read_reference,
+    FileInfo, FileOrigin, FrameFile, ReadOptions, read_attributes, read_checked_frame,
+    read_checked_reference, read_color, read_frame, read_frame_file, read_image, read_info, read_origin,
+    read_reference,
 };
 pub use window::{Area, Window};
 pub use write::{write_frame, write_image, write_image_at, write_reference};

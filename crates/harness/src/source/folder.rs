@@ -48,8 +48,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         });
         files.insert((frame.spp, replicate), frame.path.clone());
     }
-    let findings: Vec<Finding> =
-        seeds(&folder)?.into_iter().map(|found| found.within(&spec.id)).collect();
+    let findings: Vec<Finding> = seeds(&folder)?.into_iter().map(|found| found.within(&spec.id)).collect();
     let info = &folder.reference_info;
     let mut settings = BTreeMap::from([
         ("sampling".to_owned(), folder.frames[0].info.sampling.name().to_owned()), // at least one frame by contract
