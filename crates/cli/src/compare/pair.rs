@@ -95,7 +95,7 @@ impl Headers {
         info.spp?;
         info.layers.iter().find(|layer| *layer == "color.variance" || *layer == "color.halfA")?;
         let mut frame = read_frame(path, &ReadOptions::default()).ok()?;
-        let hygiene = frame.sanitize();
-        Some((frame, hygiene.invalid))
+        let hygiene = frame.sanitize().ok()?;
+        Some((frame, hygiene.without_statistics()))
     }
 }
