@@ -7,8 +7,8 @@ pub struct Contribution {
     /// the reference's relative noise. 0 for metrics that are linear in each half.
     #[serde(default)]
     pub bias: f64,
-    /// What the reference's noise would add to a relative error if it were left in: about the mean of its relative
-    /// variance. 0 for other metrics.
+    /// What was taken out of a relative error's numerator: the mean of the reference's variance over max(r,0)²+ε. 0 for
+    /// other metrics.
     #[serde(default)]
     pub noise: f64,
     /// Influence of each independent part of the reference on the value, first those of half A, scaled so that the sum of
@@ -32,14 +32,13 @@ impl Contribution {
     pub const LARGEST_NOISE: f64 = 0.02;
 
     /// For a value whose bias or noise exceeds [`Self::LARGEST_BIAS`] or [`Self::LARGEST_NOISE`]: the upper limit to print
-    /// instead. It is `high`, the upper end of the value's interval (the value itself without one), plus the larger of the
-    /// bias and of what the noise would add if it were left in. The noise is the larger one of the two where the bias
-    /// pulls a value down: to second order the error with all noise left in is too small by at most 3/4 of the relative
-    /// variance, at x = μ/3, and mostly too large.
+    /// instead. It is `high`, the upper end of the value's interval (the value itself without one), plus the size of the
+    /// bias and the noise, and so at least the error with all noise left in: to second order that is too small by at most
+    /// 3/4 of the relative variance, at x = μ/3 and before the bias is added, and mostly much too large.
     #[must_use]
     pub fn upper_limit(&self, value: f64, high: Option<f64>) -> Option<f64> {
         let doubtful = self.bias.abs() > Self::LARGEST_BIAS * value.abs() || self.noise > Self::LARGEST_NOISE;
-        let limit = high.unwrap_or(value).max(value) + self.bias.abs().max(self.noise);
+        let limit = high.unwrap_or(value).max(value) + self.bias.abs() + self.noise.max(0.0);
         (doubtful && limit > 0.0 && limit.is_finite()).then_some(limit)
     }
 
@@ -65,7 +64,7 @@ mod tests {
         assert_eq!(of(0.5).upper_limit(-2.0, None), None, "no positive limit");
         assert_eq!(of(0.0).upper_limit(0.0, None), None);
         let noisy = Contribution { noise: 0.5, ..of(0.25) };
-        assert_eq!(noisy.upper_limit(2.0, None), Some(2.5), "the noise is in doubt, however small the bias");
+        assert_eq!(noisy.upper_limit(2.0, None), Some(2.75), "the noise is in doubt, however small the bias");
     }
 
     #[test]

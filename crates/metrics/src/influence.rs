@@ -65,7 +65,7 @@ pub(crate) fn contributions(
         let sums = &mut buckets[class][usize::from(kept[p])];
         sums.pixels += 1;
         sums.bias += errors.bias[p];
-        sums.noise += errors.relative_plain[p] - errors.relative[p];
+        sums.noise += errors.relative_plain[p] - (errors.relative[p] + errors.bias[p]);
         source.add(test, p, sums);
     }
     let whole = |[cut, kept]: &[Sums; 2]| cut.clone().plus(kept);
