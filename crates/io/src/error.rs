@@ -267,17 +267,15 @@ pub enum IoError {
     },
     /// Two files of equal size whose pixels stand at different places of the picture.
     #[error(
-        "{file} has {window}, but {other} has {expected}: their pixels are not the same places of the picture"
+        "{file} has {}, but {other} has {}: their pixels are not the same places of the picture", windows[0], windows[1]
     )]
     WindowMismatch {
         /// File.
         file: PathBuf,
-        /// Its windows.
-        window: Window,
         /// The file that it is held against.
         other: PathBuf,
-        /// The windows of that.
-        expected: Window,
+        /// The windows of the one and of the other.
+        windows: Box<[Window; 2]>,
     },
 }
 

@@ -75,9 +75,8 @@ impl Window {
         if self.data.origin != other.data.origin || self.display.origin != other.display.origin {
             return Err(IoError::WindowMismatch {
                 file: file.to_owned(),
-                window: *self,
                 other: other_file.to_owned(),
-                expected: *other,
+                windows: Box::new([*self, *other]),
             });
         }
         Ok(())

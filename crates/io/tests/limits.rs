@@ -54,7 +54,7 @@ fn a_file_that_unfolds_a_thousand_times_is_refused_by_every_reader_with_size_and
     for error in errors {
         let IoError::Memory { bytes, allowed, file_bytes: 1_600_000, .. } = error else { panic!("{error}") };
         // 2 bytes of each of 12 channels; 512 MiB.
-        assert_eq!((bytes, allowed), (12 * 2 << 26, 1 << 29));
+        assert_eq!((bytes, allowed), ((12 * 2) << 26, 1 << 29));
         let told = error.to_string();
         for part in ["bomb.exr", "8192×8192", "1610612736 bytes", "536870912", "1600000"] {
             assert!(told.contains(part), "{part}: {told}");

@@ -43,10 +43,12 @@ fn planned(study: &Study, context: &Context) -> Option<Vec<PlannedScene>> {
     study.scenes.iter().map(of_scene).collect()
 }
 
+/// Rows and replicates that some levels lack, both empty for "all", with these levels and how many cells they are.
+type Gap = (Vec<String>, Vec<u32>, Vec<u32>, u64);
+
 /// What a scene lacks: the whole of it, whole levels, or single rows and replicates, like ones together.
 fn missing(scene: &PlannedScene, rows: &[&str], ended: &BTreeSet<(&str, u32, &str, u32)>) -> Vec<Missing> {
-    // Rows and replicates that a level lacks, both empty for "all", to the levels and their cells.
-    let mut groups: Vec<(Vec<String>, Vec<u32>, Vec<u32>, u64)> = Vec::new();
+    let mut groups: Vec<Gap> = Vec::new();
     for (&spp, &count) in &scene.replicates {
         let mut by_lack: BTreeMap<Vec<u32>, Vec<&str>> = BTreeMap::new();
         for &row in rows {

@@ -172,7 +172,7 @@ fn channels(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Op
         let mut rows = vec![[0.0f64; 2]; r.height().div_ceil(step)];
         for pixel in (0..r.pixels()).filter(|&p| against.usable(p, invalid)) {
             let y = pixel / width;
-            if y % step != 0 {
+            if !y.is_multiple_of(step) {
                 continue;
             }
             let w = against.weights[against.blocks.of(pixel)].powi(2);
