@@ -129,7 +129,7 @@ pub enum HarnessError {
         /// Scene id.
         scene: String,
         /// Which buffer.
-        source: noisefloor_frame::FrameError,
+        source: Box<noisefloor_frame::FrameError>,
     },
     /// A frame contradicts itself or has no image in it; its cells fail, the study goes on.
     #[error("{frame}: {source}")]
@@ -137,7 +137,7 @@ pub enum HarnessError {
         /// Scene, and file or level and replicate.
         frame: String,
         /// What is wrong.
-        source: noisefloor_frame::FrameError,
+        source: Box<noisefloor_frame::FrameError>,
     },
     /// A reference or its classes cannot be measured against.
     #[error("scene `{scene}`: {source}")]

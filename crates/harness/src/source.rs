@@ -234,7 +234,7 @@ impl Scene {
         };
         match frame.inspect(fidelity) {
             Ok(hygiene) => Ok(Checked { frame, hygiene, name }),
-            Err(source) => Err(HarnessError::Unsound { frame: name, source }),
+            Err(source) => Err(HarnessError::Unsound { frame: name, source: Box::new(source) }),
         }
     }
 

@@ -219,7 +219,7 @@ pub enum IoError {
         /// File.
         file: PathBuf,
         /// What does not fit.
-        cause: FrameError,
+        cause: Box<FrameError>,
     },
     /// A folder without any frame (a reference alone is none).
     #[error("{folder}: no frames (*.exr) here{}", if *.children { " nor in its direct sub-folders" } else { "" })]
@@ -297,6 +297,6 @@ impl IoError {
     }
 
     pub(crate) fn frame(file: &Path, cause: FrameError) -> Self {
-        Self::Frame { file: file.to_owned(), cause }
+        Self::Frame { file: file.to_owned(), cause: Box::new(cause) }
     }
 }

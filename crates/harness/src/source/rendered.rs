@@ -409,7 +409,7 @@ impl Rendered {
             parts.push(frame.color.mean);
         }
         Reference::from_parts(parts, per_part, self.reference.sampling)
-            .map_err(|source| HarnessError::Frame { scene: scene.to_owned(), source })
+            .map_err(|source| HarnessError::Frame { scene: scene.to_owned(), source: Box::new(source) })
     }
 
     pub(super) fn classes(&self, reference: &Reference) -> Result<PixelClasses, HarnessError> {
