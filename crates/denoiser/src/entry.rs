@@ -122,7 +122,7 @@ pub fn params_from<P: Default + Serialize + DeserializeOwned>(
         params = serde_json::from_value(merged.clone()).map_err(|_| BuildError::OutOfRange {
             method: method.into(),
             parameter: name.clone(),
-            value: value.to_string(),
+            value: shown(&value.to_string()),
             range: docs.iter().find(|d| d.name == name).map_or_else(String::new, |d| d.range.into()),
         })?;
     }
@@ -150,7 +150,7 @@ where
         Err(name) => Err(BuildError::OutOfRange {
             method: method.into(),
             parameter: name.into(),
-            value: given.get(name).map_or_else(String::new, ToString::to_string),
+            value: given.get(name).map_or_else(String::new, |value| shown(&value.to_string())),
             range: docs.iter().find(|d| d.name == name).map_or_else(String::new, |d| d.range.into()),
         }),
     }
@@ -159,7 +159,7 @@ where
 /// The longest name that is compared or shown in full: none that exists comes near.
 const LONGEST_NAME: usize = 100;
 
-/// A name for a message: long ones end in `…`.
+/// A name or a value for a message: long ones end in `…`.
 pub(crate) fn shown(name: &str) -> String {
     match name.char_indices().nth(LONGEST_NAME) {
         Some((end, _)) => format!("{}…", &name[..end]),

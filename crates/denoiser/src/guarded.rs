@@ -2,6 +2,7 @@ use noisefloor_frame::Variance;
 use noisefloor_stats::Level;
 use serde_json::Value;
 
+use crate::entry::shown;
 use crate::{
     Adaptive, BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, ParamDoc,
     half_widths,
@@ -61,7 +62,7 @@ impl Guarded {
         let out_of_range = |value: &Value| BuildError::OutOfRange {
             method: id.into(),
             parameter: Self::PARAM.name.into(),
-            value: value.to_string(),
+            value: shown(&value.to_string()),
             range: Self::PARAM.range.into(),
         };
         let level = match &level {

@@ -292,4 +292,8 @@ fn names_of_any_length_are_answered_shortly() {
     assert!(error.len() < 400, "{} characters", error.len());
     let error = registry.build("knobs", &overrides(json!({ long: 1 }))).unwrap_err().to_string();
     assert!(error.len() < 800, "{} characters", error.len());
+    for (method, name) in [("knobs", "radius"), ("guarded(mc)", "guard_level")] {
+        let error = registry.build(method, &overrides(json!({ name: "y".repeat(1 << 20) }))).unwrap_err();
+        assert!(matches!(error, BuildError::OutOfRange { .. }) && error.to_string().len() < 400, "{method}");
+    }
 }
