@@ -80,7 +80,7 @@ fn why_left_out(records: &[&Record], most: &BTreeMap<u32, u64>) -> Option<String
     };
     let lost: usize = records.iter().filter(fewer).map(|r| r.non_finite.output_values).sum();
     records.iter().any(|record| fewer(&record)).then(|| {
-        let are = if lost == 1 { "value is" } else { "values are" };
-        format!("{lost} output {are} not finite: its errors are over fewer pixels")
+        let are = if lost == 1 { "value is no number" } else { "values are no numbers" };
+        format!("{lost} output {are}: its errors are over fewer pixels")
     })
 }
