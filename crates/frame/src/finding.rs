@@ -108,8 +108,6 @@ pub enum FindingKind {
     NonFiniteOutput,
     /// A kept file or record of a study that is not what was written; what needs it is left out.
     DamagedFile,
-    /// The program was built without optimisation: times mean nothing.
-    DebugBuild,
 }
 
 /// What a finding means for the numbers that are made from the input.
@@ -147,7 +145,7 @@ impl FindingKind {
             | Self::NonFiniteOutput
             | Self::DamagedFile
             | Self::InvalidFeature => Severity::Limitation,
-            Self::LayerLeftOut | Self::LayerReadAs | Self::UnreadLayer | Self::DebugBuild => Severity::Notice,
+            Self::LayerLeftOut | Self::LayerReadAs | Self::UnreadLayer => Severity::Notice,
         }
     }
 }

@@ -87,7 +87,7 @@ fn recorded_sequences(study: &Study, context: &Context) -> Sequences {
     Sequences { measured, problems }
 }
 
-/// What was found about scenes, frames, outputs and the program itself, once each.
+/// What was found about scenes, frames and outputs, once each.
 fn findings(context: &Context, records: &[Record], summary: &Summary) -> Vec<Finding> {
     let of_scenes = context.scenes.iter().flat_map(|scene| &scene.findings);
     let of_inputs = of_scenes.chain(records.iter().flat_map(|record| &record.findings)).cloned();
@@ -99,14 +99,7 @@ fn findings(context: &Context, records: &[Record], summary: &Summary) -> Vec<Fin
         );
         Finding::new(FindingKind::NonFiniteOutput, subject, text).with_value(cell.non_finite_output as f64)
     });
-    let debug = (summary.environment.profile == "debug").then(|| {
-        Finding::new(
-            FindingKind::DebugBuild,
-            "",
-            "times are of a debug build and say nothing about the methods",
-        )
-    });
-    sorted_findings(of_inputs.chain(outputs).chain(debug))
+    sorted_findings(of_inputs.chain(outputs))
 }
 
 fn info(study: &Study, context: &Context, index: &Index<'_>) -> StudyInfo {

@@ -61,6 +61,10 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
     for scene in index.scenes() {
         of_scene(index, scene, summary, &mut out);
     }
+    // About times, not about inputs: here alone, so that it is said once.
+    if summary.environment.profile == "debug" {
+        out.push("times are of a debug build and say nothing about the methods".into());
+    }
     out
 }
 
