@@ -118,7 +118,14 @@ impl<'a> Against<'a> {
         out.findings.extend(dependence::frame(self, frame, invalid));
         let independent = out.findings.is_empty();
         let whole = brightness::whole(frame, &blocks);
-        let picture = picture::frame(self, &frame.color.mean, invalid, &blocks, whole);
+        let picture = picture::frame(
+            self,
+            &frame.color.mean,
+            invalid,
+            &blocks,
+            whole,
+            brightness::by_pixels(frame, &blocks),
+        );
         let another = picture.is_some();
         out.findings.extend(picture);
         out.brightness = if biased { Brightness::NotTested } else { whole };

@@ -105,6 +105,18 @@ pub(crate) fn whole(frame: &Frame, blocks: &[Sums]) -> Brightness {
     }
 }
 
+/// Size of the difference in standard errors from pixel to pixel alone: a systematic difference that varies over the image
+/// passes for noise in the spread of the blocks.
+pub(crate) fn by_pixels(frame: &Frame, blocks: &[Sums]) -> f64 {
+    let all = Sums::total(blocks);
+    let together = all.together();
+    let mut variance = all.central().0.max(together * (all.predicted + all.reference));
+    if frame.sampling == Sampling::Independent {
+        variance = variance.max(together * (all.stated + all.reference));
+    }
+    if variance > 0.0 { (all.e / variance.sqrt()).abs() } else { 0.0 }
+}
+
 /// What [`crate::among`] pools: S, its variance without the reference's part, that part, the third moment.
 pub(crate) fn pooled(frame: &Frame, blocks: &[Sums]) -> Option<[f64; 4]> {
     let all = Sums::total(blocks);

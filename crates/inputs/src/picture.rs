@@ -15,6 +15,9 @@ use crate::brightness::Brightness;
 use crate::sums::Sums;
 use tone::Tone;
 
+/// Standard errors from pixel to pixel from which on brightness differs, even if neighbours are correlated.
+const CERTAIN: f64 = 15.0;
+
 /// A frame with noise: brightness must differ significantly for a change of tone to be told.
 pub(crate) fn frame(
     against: &Against<'_>,
@@ -22,14 +25,17 @@ pub(crate) fn frame(
     invalid: &[bool],
     blocks: &[Sums],
     whole: Brightness,
+    by_pixels: f64,
 ) -> Option<Finding> {
     let all = Sums::total(blocks);
     let ratio = if all.light > 0.0 { all.seen / all.light } else { f64::NAN };
     let moved = moves::find(against, x, invalid, ratio);
-    let differs = matches!(whole, Brightness::Tested { p, .. } if p <= crate::ALPHA);
+    let tested = matches!(whole, Brightness::Tested { p, .. } if p <= crate::ALPHA);
+    let differs = tested || by_pixels >= CERTAIN || (moved.is_none() && tone::leans(against, x, invalid));
     let demand = match whole {
         _ if moved.is_some() => None,
-        Brightness::Tested { .. } => differs.then_some(&tone::NOISY),
+        _ if differs => Some(&tone::NOISY),
+        Brightness::Tested { .. } => None,
         // What cannot be tested for brightness must fit as well as an image without noise.
         Brightness::TooFew { .. } | Brightness::NotTested => Some(&tone::CLEAN),
     };

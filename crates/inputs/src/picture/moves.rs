@@ -69,7 +69,7 @@ impl Move {
 }
 
 /// L with its standard error, from sums per row.
-fn position(rows: &[[f64; 2]]) -> Option<(f64, f64)> {
+pub(super) fn position(rows: &[[f64; 2]]) -> Option<(f64, f64)> {
     let (q, a) = rows.iter().fold((0.0, 0.0), |(q, a), row| (q + row[0], a + row[1]));
     let used = rows.iter().filter(|row| row[1] > 0.0).count();
     if a <= 0.0 || used < 5 {
@@ -114,9 +114,11 @@ fn moves(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Optio
             }
         }
     }
+    // By how much less is left of the distance: L alone would prefer a small move in the right direction.
     let mut best: Option<(Move, f64, f64)> = None;
     for candidate in candidates {
         let mut rows = vec![[0.0f64; 2]; height.div_ceil(step)];
+        let mut used = 0.0f64;
         for (row, y) in rows.iter_mut().zip((0..height).step_by(step)) {
             for column in 0..width {
                 let pixel = y * width + column;
@@ -129,12 +131,14 @@ fn moves(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Optio
                 if w > 0.0 {
                     row[0] += (t - r) * (2.0 * x - r - t) / w;
                     row[1] += (t - r) * (t - r) / w;
+                    used += 1.0;
                 }
             }
         }
         let Some((l, error)) = position(&rows) else { continue };
-        if l >= LEAST && l >= LEAST_ERRORS * error && best.is_none_or(|(_, other, _)| l > other + 1e-9) {
-            best = Some((candidate, l, l / error.max(1e-12)));
+        let gained = rows.iter().map(|row| row[0]).sum::<f64>() / used.max(1.0);
+        if l >= LEAST && l >= LEAST_ERRORS * error && best.is_none_or(|(_, other, _)| gained > other) {
+            best = Some((candidate, gained, l / error.max(1e-12)));
         }
     }
     let (found, _, z) = best.filter(|(found, ..)| alike(against, &xs, &rs, invalid, *found))?;
@@ -186,11 +190,15 @@ fn channels(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Op
             }
         }
         let Some((l, error)) = position(&rows) else { continue };
-        if l >= LEAST && l >= LEAST_ERRORS * error && best.as_ref().is_none_or(|(_, other, _)| l > *other) {
+        let gained = rows.iter().map(|row| row[0]).sum::<f64>();
+        if l >= LEAST
+            && l >= LEAST_ERRORS * error
+            && best.as_ref().is_none_or(|(_, other, _)| gained > *other)
+        {
             let names = order.map(|c| ["R", "G", "B"][c]).join(", ");
             best = Some((
                 format!("taking the channels in the order {names}"),
-                l,
+                gained,
                 (l / error.max(1e-12)).min(1e6),
             ));
         }

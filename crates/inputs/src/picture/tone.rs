@@ -44,6 +44,10 @@ pub(super) const CLEAN: Demand = Demand { left: 0.3, most: 0.1, alike: 0.9 };
 /// Middle relative distance below which pictures are the same.
 const LEAST_DISTANCE: f64 = 0.05;
 
+/// Position from which on a frame lies nearer to the changed reference, and its least size in standard errors.
+const LEAN: f64 = 0.1;
+const LEAST_ERRORS: f64 = 6.0;
+
 /// Factors nearer to one are no other picture.
 const LEAST_GAIN: f64 = 1.25;
 
@@ -80,6 +84,32 @@ impl fmt::Display for Tone {
 /// Linear radiance of an sRGB-encoded value.
 fn linear(v: f64) -> f64 {
     if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+}
+
+/// The inverse of [`linear`].
+fn encoded(v: f64) -> f64 {
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+/// Whether the frame significantly lies nearer to the reference with the curve applied or undone than to the reference,
+/// by the same statistic as for moves: a curve may leave the mean as it is.
+pub(super) fn leans(against: &Against<'_>, x: &Image, invalid: &[bool]) -> bool {
+    let r = against.reference.mean();
+    [encoded, linear].into_iter().any(|curve| {
+        let mut rows = vec![[0.0f64; 2]; r.height()];
+        for pixel in (0..r.pixels()).filter(|&p| against.usable(p, invalid)) {
+            let at = |image: &Image, c: usize| f64::from(image.plane(c)[pixel]);
+            let mean = |value: &dyn Fn(usize) -> f64| (value(0) + value(1) + value(2)) / 3.0;
+            let (a, b) = (mean(&|c| at(x, c)), mean(&|c| at(r, c)));
+            let t = mean(&|c| curve(at(r, c)));
+            if a.is_finite() && t.is_finite() {
+                let w = against.weights[against.blocks.of(pixel)].powi(2);
+                let row = &mut rows[pixel / r.width()];
+                *row = [row[0] + w * (t - b) * (2.0 * a - b - t), row[1] + w * (t - b) * (t - b)];
+            }
+        }
+        super::moves::position(&rows).is_some_and(|(l, error)| l >= LEAN && l >= LEAST_ERRORS * error)
+    })
 }
 
 /// Means of blocks of both pictures.
@@ -177,7 +207,16 @@ pub(super) fn find(
         }
     }
     let (tone, left) = best?;
-    let fits = left <= demand.left * before && left <= demand.most;
+    let changed = match tone.curve {
+        Curve::None => factor(&plain),
+        curve => factor(&means(against, x, invalid, curve)),
+    };
+    // Blocks without rare light are darker than the picture; the mean knows of it.
+    let even = match (factor(&plain), changed) {
+        (Some(before), Some(after)) => (after / tone.gain).ln().abs() <= (0.5 * before.ln().abs()).max(0.1),
+        _ => false,
+    };
+    let fits = even && left <= demand.left * before && left <= demand.most;
     // A curve changes little about the order of bright and dark.
     (fits && correlation(&plain) >= demand.alike).then_some(tone)
 }
