@@ -42,7 +42,7 @@ fn a_reference_of_four_samples_gives_an_upper_limit_and_a_long_one_a_value() {
     assert!(limit > exact, "{limit} against {exact}");
     // No looser than all noise of the reference, (σ/μ)² = 1/16 to first order, left in.
     assert!(limit < 3.0 * (exact + 1.0 / 16.0), "{limit} against {exact}");
-    assert!(short["reference_bias_removed"]["relmse"].as_f64().unwrap() > 0.0);
+    assert!(short["reference_bias_removed"]["relmse"].as_f64().unwrap() != 0.0);
     let text = told(at, &["compare", "frame.exr", "short.exr"]);
     let line = text.lines().find(|line| line.starts_with("relmse ")).unwrap();
     assert!(line.contains("< ") && text.contains("bias of relmse"), "{text}");
