@@ -58,7 +58,9 @@ fn the_bound_of_a_guarded_method_holds_for_normal_samples() {
     for cell in summary.cells.iter().filter(|c| c.label == "guarded(blur)") {
         assert!(cell.enclosure_worst_ratio.unwrap() <= 1.0);
     }
-    assert!(summary.warnings.is_empty(), "{:?}", summary.warnings);
+    // What an unoptimised build says of its times is no warning about bounds.
+    let about_numbers: Vec<_> = summary.warnings.iter().filter(|w| !w.contains("debug build")).collect();
+    assert!(about_numbers.is_empty(), "{about_numbers:?}");
 }
 
 #[test]
