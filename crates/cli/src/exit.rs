@@ -16,7 +16,7 @@ pub enum Exit {
     Failed,
     /// The command line asks for something that does not exist or does not fit together; nothing was done.
     Usage,
-    /// A report was written, but of a study that is not finished.
+    /// A report was written, but of a study that is not finished, or of which cells ended in an error.
     Unfinished,
     /// Stopped by Ctrl-C.
     Interrupted,
@@ -44,7 +44,9 @@ impl Exit {
             Self::Done => "done",
             Self::Failed => "an error, told on standard error",
             Self::Usage => "wrong usage, nothing was done",
-            Self::Unfinished => "a report was written, of a study that is not finished",
+            Self::Unfinished => {
+                "a report was written, of a study that is not finished or in which cells failed"
+            }
             Self::Interrupted => "stopped by Ctrl-C",
         }
     }

@@ -11,7 +11,7 @@ use noisefloor_report::ReportOptions;
 use crate::args::Report;
 use crate::exit::Exit;
 use crate::out::{Out, note, say};
-use crate::table::unfinished;
+use crate::table::{failed, unfinished};
 
 pub fn run(args: &Report) -> anyhow::Result<Exit> {
     if !(args.viewer_budget.is_finite() && args.viewer_budget >= 0.0) {
@@ -30,15 +30,14 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
     Ok(unfinished_or_done(&summary))
 }
 
-/// What a script must know of a report: whether its study is finished. Tells what is missing on standard error.
+/// What a script must know of a report: whether its study is finished and no cell failed. Tells what is missing on
+/// standard error.
 pub fn unfinished_or_done(summary: &Summary) -> Exit {
-    match unfinished(summary) {
-        Some(line) => {
-            note!("noisefloor: {line}");
-            Exit::Unfinished
-        }
-        None => Exit::Done,
+    let missing = [unfinished(summary), failed(summary)];
+    for line in missing.iter().flatten() {
+        note!("noisefloor: {line}");
     }
+    if missing.iter().any(Option::is_some) { Exit::Unfinished } else { Exit::Done }
 }
 
 /// Names the way out where a study's folder cannot be written.

@@ -55,6 +55,8 @@ pub fn summary_table(summary: &Summary) -> String {
     let skipped: Vec<String> = summary
         .skipped
         .iter()
+        // Failures are told above.
+        .filter(|s| s.status != "failed")
         .map(|s| format!("{} {} on {}: {}", s.status, s.label, s.scene, s.reason))
         .collect();
     if !skipped.is_empty() {
@@ -67,6 +69,17 @@ pub fn summary_table(summary: &Summary) -> String {
 pub fn unfinished(summary: &Summary) -> Option<String> {
     let progress = summary.progress.as_ref().filter(|progress| !progress.complete())?;
     Some(format!("unfinished: {progress}"))
+}
+
+/// `9 rows failed; the first: …`, if any did.
+pub fn failed(summary: &Summary) -> Option<String> {
+    let mut failed = summary.skipped.iter().filter(|entry| entry.status == "failed");
+    let first = failed.next()?;
+    let rows = match failed.count() {
+        0 => "a row".to_owned(),
+        more => format!("{} rows", more + 1),
+    };
+    Some(format!("{rows} failed; the first: {} on {}: {}", first.label, first.scene, first.reason))
 }
 
 /// The reference in words, and how long it is beside the frames.

@@ -66,6 +66,8 @@ impl fmt::Display for Finding {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum FindingKind {
+    /// A frame that contradicts itself or has no image in it: no method ran on it.
+    RefusedFrame,
     /// The headers of two inputs that must be independent name the same scene, sampler and random seed.
     SharedSeed,
     /// Two inputs that must be independent hold equal planes.
@@ -127,7 +129,8 @@ impl FindingKind {
     #[must_use]
     pub fn severity(self) -> Severity {
         match self {
-            Self::SharedSeed
+            Self::RefusedFrame
+            | Self::SharedSeed
             | Self::EqualData
             | Self::DifferentPicture
             | Self::Brightness

@@ -11,7 +11,11 @@ const SIZE: (usize, usize) = (40, 30);
 
 /// Independent samples around a picture, eight in each half.
 fn sound() -> Frame {
-    let mut state = 7u64;
+    drawn(7, 16)
+}
+
+fn drawn(seed: u64, count: usize) -> Frame {
+    let mut state = seed;
     let mut uniform = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((state >> 33) as f64 + 0.5) / (1u64 << 31) as f64
@@ -19,19 +23,18 @@ fn sound() -> Frame {
     let blank = Image::new(SIZE.0, SIZE.1, 3);
     let mut planes = [blank.clone(), blank.clone(), blank.clone(), blank];
     for i in 0..planes[0].data().len() {
-        let samples: Vec<f64> = (0..16).map(|_| (1.0 + (i % 7) as f64) * -uniform().ln()).collect();
-        let mean = |of: &mut dyn Iterator<Item = &f64>| of.sum::<f64>();
-        let (a, b) =
-            (mean(&mut samples.iter().step_by(2)) / 8.0, mean(&mut samples.iter().skip(1).step_by(2)) / 8.0);
+        let samples: Vec<f64> = (0..count).map(|_| (1.0 + (i % 7) as f64) * -uniform().ln()).collect();
+        let half = |first: usize| samples.iter().skip(first).step_by(2).sum::<f64>() / (count / 2) as f64;
+        let (a, b) = (half(0), half(1));
         let all = 0.5 * (a + b);
-        let variance = samples.iter().map(|x| (x - all).powi(2)).sum::<f64>() / (15.0 * 16.0);
+        let variance = samples.iter().map(|x| (x - all).powi(2)).sum::<f64>() / ((count - 1) * count) as f64;
         for (plane, value) in planes.iter_mut().zip([all, variance, a, b]) {
             plane.data_mut()[i] = value as f32;
         }
     }
     let [mean, variance, a, b] = planes;
     let color = Estimate { mean, variance: Some(Variance::of_mean(variance)), halves: Some([a, b]) };
-    let mut frame = Frame::from_color(color, Samples::uniform(16), Sampling::Independent);
+    let mut frame = Frame::from_color(color, Samples::uniform(count as u32), Sampling::Independent);
     let flat = |channels: usize| Estimate::from_mean(Image::filled(SIZE.0, SIZE.1, channels, 0.5));
     for (id, channels) in [(FeatureId::Albedo, 3), (FeatureId::Normal, 3), (FeatureId::Depth, 1)] {
         frame.features.insert(id, flat(channels));
@@ -218,4 +221,41 @@ fn a_reference_that_contradicts_itself_or_has_no_number_is_refused() {
     let mut black_half = sound();
     black_half.color.halves.as_mut().unwrap()[0].data_mut().fill(0.0);
     assert!(refused(&compare(&black_half)).contains("halves do not average to the mean"));
+}
+
+/// Two replicates and a reference with noise of their own.
+fn study_of(first: &Frame) -> Place {
+    let place = Place(tempfile::tempdir().unwrap());
+    std::fs::create_dir(place.at("frames")).unwrap();
+    write_frame(place.at("frames/spp0016_0.exr"), first).unwrap();
+    write_frame(place.at("frames/spp0016_1.exr"), &drawn(8, 16)).unwrap();
+    write_frame(place.at("frames/reference.exr"), &drawn(9, 1024)).unwrap();
+    place
+}
+
+#[test]
+fn a_frame_that_contradicts_itself_is_told_once_and_leaves_the_others_ranked() {
+    let mut doubled = sound();
+    doubled.color.halves.as_mut().unwrap().iter_mut().for_each(|half| *half = half.map(|v| 2.0 * v));
+    let place = study_of(&doubled);
+    for quiet in [&[][..], &["-q"]] {
+        let run = [&["run", "frames", "--out", "results", "--cache", "cache"], quiet].concat();
+        let output = command(place.0.path(), &run);
+        assert_eq!(output.status.code(), Some(3), "cells failed");
+        let errors = String::from_utf8(output.stderr).unwrap();
+        let told = errors.lines().filter(|line| line.contains("rows failed")).count();
+        assert_eq!(told, 1, "{errors}");
+        let table = String::from_utf8(output.stdout).unwrap();
+        let cause = "spp0016_0.exr: `color`: its halves do not average to the mean";
+        assert_eq!(table.matches(cause).count(), usize::from(quiet.is_empty()), "{table}");
+        assert!(errors.contains(cause) && !table.contains("not ranked"), "{errors}{table}");
+    }
+    let summary: Value =
+        serde_json::from_str(&std::fs::read_to_string(place.at("results/summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["findings"][0]["kind"], "refused-frame");
+    assert_eq!(summary["findings"].as_array().unwrap().len(), 1, "one frame, told once");
+    for cell in summary["cells"].as_array().unwrap() {
+        assert_eq!((&cell["replicates"], &cell["left_out"]), (&Value::from(1), &Value::Null));
+    }
+    assert_eq!(done(&command(study_of(&drawn(3, 16)).0.path(), &["run", "frames", "-q"])), "");
 }

@@ -16,8 +16,8 @@ pub(super) struct Standing {
 impl Standing {
     /// From all records of the level.
     ///
-    /// Frames differ, so means over different frames cannot be ranked. A row that was skipped or failed on a frame, or
-    /// whose output has values that are not finite (its errors are over fewer pixels then), is left out. Of the others a
+    /// Frames differ, so means over different frames cannot be ranked. A row that was skipped or failed on a frame on
+    /// which another ran, or whose output has values that are not finite (its errors are over fewer pixels then), is left out. Of the others a
     /// replicate counts where all of them have it: in a study that was stopped some have one more than others.
     pub(super) fn of(records: &[&Record]) -> Self {
         let mut rows: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
@@ -30,12 +30,14 @@ impl Standing {
             let most = most.entry(record.replicate).or_default();
             *most = record.pixels.max(*most);
         }
+        // A frame on which no row ran is missing in all rows alike.
+        let used: BTreeSet<u32> = rows.values().flat_map(|records| replicates(records)).collect();
         let mut out = Self::default();
         let mut common: Option<BTreeSet<u32>> = None;
         let mut ranked = Vec::new();
         for (label, records) in rows {
             let done = replicates(&records);
-            if let Some(reason) = why_left_out(&records, &most) {
+            if let Some(reason) = why_left_out(&records, &most, &used) {
                 out.left_out.insert(label.to_owned(), reason);
             } else if !done.is_empty() {
                 common = Some(match common {
@@ -58,7 +60,7 @@ fn replicates(records: &[&Record]) -> BTreeSet<u32> {
     records.iter().filter(|r| r.outcome == Outcome::Done).map(|r| r.replicate).collect()
 }
 
-fn why_left_out(records: &[&Record], most: &BTreeMap<u32, u64>) -> Option<String> {
+fn why_left_out(records: &[&Record], most: &BTreeMap<u32, u64>, used: &BTreeSet<u32>) -> Option<String> {
     let done = replicates(records).len();
     if done == 0 {
         // It has no numbers; the list of rows that did not run says why.
@@ -69,8 +71,9 @@ fn why_left_out(records: &[&Record], most: &BTreeMap<u32, u64>) -> Option<String
         Outcome::Skipped { reason } => Some(("skipped", reason.clone())),
         Outcome::Failed { reason } => Some(("failed", reason.clone())),
     };
-    if let Some((word, reason)) = records.iter().find_map(ended) {
-        let all: BTreeSet<u32> = records.iter().map(|r| r.replicate).collect();
+    let on_used = || records.iter().filter(|record| used.contains(&record.replicate));
+    if let Some((word, reason)) = on_used().find_map(ended) {
+        let all: BTreeSet<u32> = on_used().map(|r| r.replicate).collect();
         return Some(format!("ran on {done} of {} replicates, {word} on the others ({reason})", all.len()));
     }
     // Records of earlier programs do not say over how many pixels they are.

@@ -28,16 +28,7 @@ pub fn violations(summary: &Summary) -> Vec<String> {
 /// What a reader must see first, most serious first.
 pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
     let mut out = violations(summary);
-    for entry in summary.skipped.iter().filter(|entry| entry.status == "failed") {
-        let spp: Vec<String> = entry.spp.iter().map(u32::to_string).collect();
-        out.push(format!(
-            "{} failed on {} at {} spp: {}",
-            entry.label,
-            entry.scene,
-            spp.join(", "),
-            entry.reason
-        ));
-    }
+    out.extend(failed(summary));
     if summary.progress.is_none() {
         out.push(
             "how many cells the study asks for is unknown (the list of its folders' frames was not kept): whether it is finished \
@@ -68,23 +59,57 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
     out
 }
 
-/// Rows that are not ranked, levels with the same reason together.
+/// Rows that ended in an error, those with the same one together; what a finding says of the frame is not said again.
+fn failed(summary: &Summary) -> Vec<String> {
+    let told: Vec<String> = summary.findings.iter().map(ToString::to_string).collect();
+    let failed = summary.skipped.iter().filter(|entry| entry.status == "failed");
+    let fresh = failed.filter(|entry| !told.contains(&entry.reason));
+    let mut groups = Groups::default();
+    for entry in fresh {
+        let spp: Vec<String> = entry.spp.iter().map(u32::to_string).collect();
+        groups.add(entry.label.as_str(), (&entry.scene, spp, &entry.reason));
+    }
+    let line = |(labels, (scene, spp, reason)): (Vec<&str>, (&String, Vec<String>, &String))| {
+        format!("{} failed on {scene} at {} spp: {reason}", labels.join(", "), spp.join(", "))
+    };
+    groups.0.into_iter().map(line).collect()
+}
+
+/// Rows that are not ranked: levels with the same reason together, then rows.
 fn left_out(summary: &Summary) -> Vec<String> {
-    let mut groups: Vec<(&str, &str, &str, Vec<String>)> = Vec::new();
+    let mut levels = Groups::default();
     for cell in &summary.cells {
-        let Some(reason) = &cell.left_out else { continue };
-        let same = |g: &&mut (&str, &str, &str, Vec<String>)| {
-            g.0 == cell.scene && g.1 == cell.label && g.2 == reason
-        };
-        match groups.iter_mut().find(same) {
-            Some(group) => group.3.push(cell.spp.to_string()),
-            None => groups.push((&cell.scene, &cell.label, reason, vec![cell.spp.to_string()])),
+        if let Some(reason) = &cell.left_out {
+            levels.add(cell.spp.to_string(), (&cell.scene, &cell.label, reason));
         }
     }
-    let line = |(scene, label, reason, spp): (&str, &str, &str, Vec<String>)| {
-        format!("{label} on {scene} at {} spp is not ranked: {reason}", spp.join(", "))
+    let mut rows = Groups::default();
+    for (spp, (scene, label, reason)) in levels.0 {
+        rows.add(label.as_str(), (scene, spp, reason));
+    }
+    let line = |(labels, (scene, spp, reason)): (Vec<&str>, (&String, Vec<String>, &String))| {
+        let are = if labels.len() == 1 { "is" } else { "are" };
+        format!("{} on {scene} at {} spp {are} not ranked: {reason}", labels.join(", "), spp.join(", "))
     };
-    groups.into_iter().map(line).collect()
+    rows.0.into_iter().map(line).collect()
+}
+
+/// Things by what they share, both in the order in which they came.
+struct Groups<T, K>(Vec<(Vec<T>, K)>);
+
+impl<T, K> Default for Groups<T, K> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T, K: PartialEq> Groups<T, K> {
+    fn add(&mut self, thing: impl Into<T>, shared: K) {
+        match self.0.iter_mut().find(|(_, known)| *known == shared) {
+            Some((things, _)) => things.push(thing.into()),
+            None => self.0.push((vec![thing.into()], shared)),
+        }
+    }
 }
 
 fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mut Vec<String>) {

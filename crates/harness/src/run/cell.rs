@@ -69,9 +69,11 @@ impl Runner<'_> {
                 // A frame that contradicts itself, or a method that does not know where it needs samples, ends its
                 // own cells, not the study.
                 Err(error @ (HarnessError::Density { .. } | HarnessError::Unsound { .. })) => {
+                    let refused = refused(&error);
                     for (row, key) in rows {
                         let mut record = self.blank(row, key, &spec, scene.sampling);
                         record.outcome = Outcome::Failed { reason: error.to_string() };
+                        record.findings.extend(refused.clone());
                         records.append(record.clone())?;
                         self.request.observer.cell(&record, &record.outcome);
                     }
@@ -171,6 +173,12 @@ impl Runner<'_> {
         }
         Ok(frames)
     }
+}
+
+/// A frame that could not be used is a finding about the inputs, in the same words as the failure of its cells.
+fn refused(error: &HarnessError) -> Option<Finding> {
+    let HarnessError::Unsound { frame, source } = error else { return None };
+    Some(Finding::new(FindingKind::RefusedFrame, frame, source.to_string()))
 }
 
 /// Frames of a scene with the rows that are still to run on them: the study's own frames first, then each row's own.
