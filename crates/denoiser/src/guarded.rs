@@ -140,6 +140,7 @@ impl Denoiser for Guarded {
         // The inner method's own bound or error estimate does not describe the projected image.
         output.bounds.clear();
         output.error_estimate = None;
+        output.estimate_of = None;
         output.figures.push(("projected values".into(), moved as f64));
         Ok(output)
     }

@@ -26,6 +26,9 @@ pub struct Output {
     pub image: Image,
     /// Own estimate of the squared error per pixel and channel, if the method has one.
     pub error_estimate: Option<Image>,
+    /// The image that the estimate is about, with a name for people, where that is not `image`: an intermediate one. Shape
+    /// of the target.
+    pub estimate_of: Option<(String, Image)>,
     /// Stated bounds.
     pub bounds: Vec<Bound>,
     /// Named images that the source work's figures show: flash image, homogeneous set, kernel radius.
@@ -43,6 +46,7 @@ impl Output {
         Self {
             image,
             error_estimate: None,
+            estimate_of: None,
             bounds: Vec::new(),
             diagnostics: Vec::new(),
             figures: Vec::new(),

@@ -23,6 +23,7 @@ mod provenance;
 mod reference;
 mod running;
 mod samples;
+mod unit_range;
 
 pub use error::FrameError;
 pub use estimate::{Estimate, Variance};
@@ -36,3 +37,4 @@ pub use provenance::{Camera, PixelFilter, Provenance};
 pub use reference::{Reference, SquaredError};
 pub use running::{BLOCK_SAMPLES, BlockTree, Moments};
 pub use samples::{Counts, Samples};
+pub use unit_range::{Far, UnitRange};

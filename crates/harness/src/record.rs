@@ -216,6 +216,10 @@ pub struct EstimateCheck {
     /// pixels; only when the study has one replicate and both are positive.
     #[serde(default)]
     pub within_se: Option<f64>,
+    /// Name of the image that the estimate is about and the squared error was measured of, where that is an intermediate
+    /// one and not the output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
 }
 
 /// Means over some pixel-channels, in squared radiance.

@@ -438,6 +438,10 @@ pub struct EstimateSummary {
     pub spp: u32,
     /// Row label.
     pub label: String,
+    /// Name of the image that estimate and measured error are about, where that is an intermediate one of the method and
+    /// not its output.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
     /// Pixel class or `all`.
     pub class: String,
     /// Mean estimated squared error; may be negative.

@@ -4,6 +4,7 @@ use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::nlm::{NlmInputs, NlmParams, Pass, Perturbation, Planes, filter};
 
+use crate::exposure::typical_brightness;
 use crate::kernel;
 use crate::prepare::Prepared;
 use crate::selection::Choice;
@@ -13,8 +14,8 @@ use crate::variance::mean_of_halves;
 
 /// Step of the finite difference over the value.
 const STEP: f32 = 0.01;
-/// Values below this fraction of the image's mean magnitude get the derivative for fixed weights.
-const SMALL: f64 = 1e-6;
+/// Values below this fraction of the image's typical brightness get the derivative for fixed weights.
+const SMALL: f32 = 1e-6;
 
 /// What one candidate gives.
 #[derive(Debug, Clone)]
@@ -29,6 +30,8 @@ pub(crate) struct Candidate {
     pub weight_sum: Image,
     /// Σ w·n, one plane: samples that contribute.
     pub contributing: Image,
+    /// w(p,p)/Σ w, one plane.
+    pub center_share: Image,
 }
 
 /// Runs the candidates of `which` on `target`, with windows that also take in `beside`.
@@ -45,6 +48,7 @@ pub(crate) fn candidates(
         feature_k: settings.feature_k,
         denominator: settings.denominator,
         center: settings.center,
+        epsilon: target.epsilon,
         ..NlmParams::new(width, height, settings.radius, settings.color_k)
     };
     let pass = |choice: &Choice| match choice {
@@ -66,7 +70,7 @@ pub(crate) fn candidates(
         .map(|f| {
             let halves = kernel::halves(&f.planes[..6], width, height);
             let mean = mean_of_halves(&halves, &frame.samples);
-            let derivative = kernel::image(&f.derivative, width, height);
+            let derivative = plausible(kernel::image(&f.derivative, width, height), &f.center_share);
             let sure = sure(&mean, &frame.color.mean, &target.variance, &derivative);
             let contributing = f.planes[6].iter().zip(&f.weight_sum).map(|(n, w)| n * w).collect();
             Candidate {
@@ -76,6 +80,7 @@ pub(crate) fn candidates(
                 derivative,
                 contributing: kernel::image(&[contributing], width, height),
                 weight_sum: kernel::image(&[f.weight_sum], width, height),
+                center_share: kernel::image(&[f.center_share], width, height),
             }
         })
         .collect())
@@ -88,20 +93,31 @@ fn with_counts<'a>(prepared: &'a Prepared<'_>, counts: &'a Image) -> Planes<'a> 
     planes
 }
 
-/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is outside [0,
-/// 1] or next to nothing.
+/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is not positive
+/// or next to nothing.
 pub(crate) fn steps(color: &Image) -> Image {
-    let magnitude: f64 = color.data().iter().map(|v| f64::from(v.abs())).sum();
-    // An image has at least one value.
-    let least = (SMALL * magnitude / color.data().len() as f64) as f32;
+    let least = SMALL * typical_brightness(color);
     let mut out = color.map(|v| STEP * v);
     for p in 0..color.pixels() {
-        let fine = |v: f32| v > 0.0 && v >= least && v <= 1.0;
+        let fine = |v: f32| v > 0.0 && v >= least;
         if !color.planes().all(|plane| fine(plane[p])) {
             out.planes_mut().for_each(|plane| plane[p] = 0.0);
         }
     }
     out
+}
+
+/// The derivative where it is between 0 and 1 in all channels, and elsewhere that for fixed weights, w(p,p)/Σ w. A mean
+/// neither moves against one of its values nor by more than it; a quotient that says so has met the end of a weight.
+/// The text says nothing of it, the authors' program does this.
+pub(crate) fn plausible(mut derivative: Image, center_share: &[f32]) -> Image {
+    for (p, share) in center_share.iter().enumerate() {
+        // A NaN is in no range.
+        if !derivative.planes().all(|plane| (0.0..=1.0).contains(&plane[p])) {
+            derivative.planes_mut().for_each(|plane| plane[p] = *share);
+        }
+    }
+    derivative
 }
 
 /// Samples of every pixel, one plane.

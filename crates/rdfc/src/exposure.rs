@@ -1,41 +1,61 @@
-//! Frames brighter than the engine takes, at a lower exposure.
+//! The exposure at which frames are filtered.
 
 use noisefloor_denoiser::{Input, Output};
 use noisefloor_frame::{Estimate, Frame, Image, Variance};
+use noisefloor_kernels::nlm::MIN_EPSILON;
 
-/// Largest value that goes to the engine as it is. Its square and that times 10⁶ are within the engine's range.
+/// Largest value that goes to the engine. Its square and that times 10⁶ are within the engine's range.
 const BRIGHT: f32 = 1e12;
+/// ε of the text, for frames of typical brightness ¼ to ½.
+const EPSILON: f64 = 1e-10;
 
-/// Target and neighbours times a power of two.
+/// Target and neighbours times a power of two that takes the target's typical brightness to between ¼ and ½: what the
+/// method adds to variances and squared means (ε, 0.01) is meant for such values, and no result depends on the
+/// exposure that a frame came with. A power of two changes no digit.
 #[derive(Debug)]
-pub(crate) struct Dimmed {
+pub(crate) struct Exposed {
     target: Frame,
     before: Vec<Frame>,
     after: Vec<Frame>,
     factor: f64,
+    /// What of ε is left where the frame's brightest value keeps it from its exposure, above 0.
+    epsilon: f32,
 }
 
-impl Dimmed {
-    /// `None` if the frames are fine as they are. Non-finite values are left for those who refuse them.
-    pub fn new(input: &Input<'_>) -> Option<Self> {
+impl Exposed {
+    /// Non-finite values are left for those who refuse them.
+    pub fn new(input: &Input<'_>) -> Self {
         let frames = || input.before.iter().chain([input.target]).chain(input.after);
         let images = frames().flat_map(|f| f.color.halves.iter().flatten().chain([&f.color.mean]));
         let finite = images.flat_map(|image| image.data().iter().map(|v| v.abs())).filter(|v| v.is_finite());
         let largest = finite.fold(0.0f32, f32::max);
-        if largest <= BRIGHT {
-            return None;
-        }
-        let factor = (-f64::from(largest / BRIGHT).log2().ceil()).exp2();
-        let dim = |frame: &Frame| Frame { color: dimmed(&frame.color, factor), ..frame.clone() };
-        Some(Self {
+        let wanted = match typical_brightness(&input.target.color.mean) {
+            0.0 => 1.0,
+            // 2^(−2−⌊log₂⌋): exact, and within the range of the type for every positive value.
+            typical => (-2.0 - f64::from(typical).log2().floor()).exp2(),
+        };
+        let factor = if f64::from(largest) * wanted > f64::from(BRIGHT) {
+            (-(f64::from(largest) / f64::from(BRIGHT)).log2().ceil()).exp2()
+        } else {
+            wanted
+        };
+        let dim = |frame: &Frame| Frame { color: exposed(&frame.color, factor), ..frame.clone() };
+        let epsilon = EPSILON * (factor / wanted).powi(2);
+        Self {
             target: dim(input.target),
             before: input.before.iter().map(dim).collect(),
             after: input.after.iter().map(dim).collect(),
             factor,
-        })
+            epsilon: epsilon.max(f64::from(MIN_EPSILON)) as f32,
+        }
     }
 
-    /// The same input at the lower exposure.
+    /// ε at this exposure.
+    pub fn epsilon(&self) -> f32 {
+        self.epsilon
+    }
+
+    /// The input at this exposure.
     pub fn input<'a>(&'a self, input: &Input<'_>) -> Input<'a> {
         Input {
             target: &self.target,
@@ -52,6 +72,9 @@ impl Dimmed {
         if let Some(estimate) = &mut output.error_estimate {
             *estimate = scaled(estimate, square);
         }
+        if let Some((_, image)) = &mut output.estimate_of {
+            *image = scaled(image, radiance);
+        }
         for (name, image) in &mut output.diagnostics {
             if name.starts_with("candidate") || name == "first pass" {
                 *image = scaled(image, radiance);
@@ -67,7 +90,22 @@ impl Dimmed {
     }
 }
 
-fn dimmed(color: &Estimate, factor: f64) -> Estimate {
+/// Median over the pixels that are not black of the mean magnitude of the channels; 0 if all are. No pixel moves it
+/// by much, however bright.
+pub(crate) fn typical_brightness(color: &Image) -> f32 {
+    let magnitude = |p: usize| color.planes().map(|plane| f64::from(plane[p].abs())).sum::<f64>();
+    let mut lit: Vec<f32> = (0..color.pixels())
+        .map(|p| (magnitude(p) / color.channels() as f64) as f32)
+        .filter(|v| *v > 0.0 && v.is_finite())
+        .collect();
+    if lit.is_empty() {
+        return 0.0;
+    }
+    let middle = lit.len() / 2;
+    *lit.select_nth_unstable_by(middle, f32::total_cmp).1
+}
+
+fn exposed(color: &Estimate, factor: f64) -> Estimate {
     let variance = color.variance.as_ref().map(Variance::mean_variance);
     Estimate {
         mean: scaled(&color.mean, factor),

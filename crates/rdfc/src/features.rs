@@ -1,19 +1,15 @@
 //! Features: normalised to unit range, filtered by themselves, and measured against variance and slope (Sec. 5).
 
 use noisefloor_denoiser::DenoiseError;
-use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Sampling, Variance};
-use noisefloor_kernels::nlm::{FeatureChannel, MAX_VALUE, MAX_VARIANCE, NlmParams};
+use noisefloor_frame::{Estimate, Far, FeatureId, Frame, Image, Sampling, UnitRange};
+use noisefloor_kernels::nlm::{FeatureChannel, MAX_VARIANCE, NlmParams};
 use rayon::prelude::*;
 
 use crate::VarianceScaling;
-use crate::exposure::scaled as scaled_by;
-use crate::kernel;
+use crate::kernel::{self, within_range};
 use crate::params::Gradient;
 use crate::settings::Settings;
 use crate::variance::{mean_of_halves, scaled_sample_variance, smoothed_half_variance};
-
-/// Share of pixels whose caustic density is below what counts as 1.
-const CAUSTIC_QUANTILE: f64 = 0.99;
 
 /// A feature ready to make weights from.
 #[derive(Debug, Clone)]
@@ -34,49 +30,18 @@ impl Feature {
     }
 }
 
-/// value·factor + offset: what brings a feature to unit range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Unit {
-    factor: f64,
-    offset: f64,
-}
-
 /// The features of `names` that the frame has, in that order, with what brings them to unit range.
-pub(crate) fn usable(frame: &Frame, names: &[String]) -> Vec<(FeatureId, Unit)> {
-    let mut out: Vec<(FeatureId, Unit)> = Vec::new();
+pub(crate) fn usable(frame: &Frame, names: &[String], far: Far) -> Vec<(FeatureId, UnitRange)> {
+    let mut out: Vec<(FeatureId, UnitRange)> = Vec::new();
     for name in names {
         let id = FeatureId::from_name(name);
         let Some(feature) = frame.feature(&id).filter(|f| f.mean.channels() > 0) else { continue };
         if out.iter().all(|(known, _)| *known != id) {
-            let unit = unit(&id, &feature.mean);
+            let unit = UnitRange::of(&id, &feature.mean, far);
             out.push((id, unit));
         }
     }
     out
-}
-
-/// Largest magnitude; 0 for an image of zeros.
-fn largest(image: &Image) -> f32 {
-    image.data().iter().fold(0.0, |most, v| most.max(v.abs()))
-}
-
-fn unit(id: &FeatureId, mean: &Image) -> Unit {
-    // Reciprocals of values so small that they overflow would blow up nothing but rounding.
-    let over =
-        |most: f32| Unit { factor: if most > 1e-30 { 1.0 / f64::from(most) } else { 1.0 }, offset: 0.0 };
-    match id {
-        // Averages of unit vectors.
-        FeatureId::Normal if largest(mean) <= 1.001 => Unit { factor: 0.5, offset: 0.5 },
-        FeatureId::Albedo | FeatureId::Brdf | FeatureId::Visibility => over(largest(mean).max(1.0)),
-        // A density has peaks without limit: what is bright but common counts as 1.
-        FeatureId::Caustics => {
-            let mut positive: Vec<f32> = mean.data().iter().copied().filter(|v| *v > 0.0).collect();
-            positive.sort_unstable_by(f32::total_cmp);
-            let index = (CAUSTIC_QUANTILE * positive.len() as f64) as usize;
-            over(positive.get(index).or(positive.last()).copied().unwrap_or(1.0))
-        }
-        _ => over(largest(mean)),
-    }
 }
 
 /// Prefilters one feature of `frame`, which has it.
@@ -85,20 +50,13 @@ pub(crate) fn prefilter(
     frame: &Frame,
     feature: &Estimate,
     name: &str,
-    unit: Unit,
+    unit: UnitRange,
     settings: &Settings,
 ) -> Result<Feature, DenoiseError> {
+    let Estimate { mean, variance, halves } = unit.apply(feature);
     // Halves may go beyond the mean's range, but not beyond the engine's.
-    let most = f64::from(MAX_VALUE);
-    let one = |v: f32| (f64::from(v) * unit.factor + unit.offset).clamp(-most, most) as f32;
-    let scaled = |image: &Image| image.map(one);
-    let mean = scaled(&feature.mean);
-    let halves = feature.halves.as_ref().map(|halves| halves.each_ref().map(scaled));
-    let sampled = feature
-        .variance
-        .as_ref()
-        .map(Variance::mean_variance)
-        .map(|v| scaled_by(v, unit.factor * unit.factor).map(|v| v.min(MAX_VARIANCE)));
+    let (mean, halves) = (within_range(mean), halves.map(|halves| halves.map(within_range)));
+    let sampled = variance.map(|v| v.into_mean_variance().map(|v| v.min(MAX_VARIANCE)));
     let variance = match (&sampled, &halves) {
         (Some(variance), Some(halves)) if scales(settings.scaling, frame.sampling) => {
             scaled_sample_variance(variance, halves, &frame.samples)

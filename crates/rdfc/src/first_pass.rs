@@ -73,7 +73,8 @@ fn by_color(
 ) -> Result<Image, DenoiseError> {
     let (width, height) = (maps.width(), maps.height());
     let guide = kernel::channels(&target.frame.color.mean, &target.variance);
-    let params = NlmParams { center, ..NlmParams::new(width, height, radius, MAP_K) };
+    let params =
+        NlmParams { center, epsilon: target.epsilon, ..NlmParams::new(width, height, radius, MAP_K) };
     let filtered = kernel::filter_guided(method, &params, patch, guide, maps.planes().collect())?;
     Ok(kernel::image(&filtered.planes, width, height))
 }
@@ -87,11 +88,16 @@ pub(crate) fn filter_errors(
     sizes: (usize, usize),
     center: Center,
 ) -> Result<Image, DenoiseError> {
-    let largest = errors.data().iter().fold(0.0f32, |most, v| most.max(v.abs()));
-    let scale = if largest > 1.0 { (-largest.log2().ceil()).exp2() } else { 1.0 };
+    let scale = unit_scale(errors);
     let filtered = by_color(method, target, &errors.map(|v| v * scale), sizes, center)?;
     // At least 2⁻¹⁰⁴, as magnitudes are at most 3·10³⁰.
     Ok(filtered.map(|v| v / scale))
+}
+
+/// The power of two that takes values above 1 to at most 1.
+pub(crate) fn unit_scale(image: &Image) -> f32 {
+    let largest = image.data().iter().fold(0.0f32, |most, v| most.max(v.abs()));
+    if largest > 1.0 { (-largest.log2().ceil()).exp2() } else { 1.0 }
 }
 
 /// One channel per candidate, 1 where it is chosen.

@@ -23,8 +23,8 @@ mod tests;
 pub use card::CITATION;
 pub use method::{ENTRY, FIRST_ENTRY, Rdfc, SECOND_ENTRY, THIRD_ENTRY};
 pub use params::{
-    CenterWeight, DerivativeRule, FeatureDenominator, Gradient, Params, Profile, SecondPass, Ties,
-    VarianceScaling,
+    CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, Gradient,
+    Params, Profile, SecondPass, Ties, VarianceScaling,
 };
 pub use selection::{Choice, select};
 pub use variance::{box_mean, scaled_sample_variance, smoothed_half_variance};

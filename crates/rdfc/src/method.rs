@@ -5,17 +5,17 @@ use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::nlm::MAX_PIXELS;
 
 use crate::candidates::{Candidate, candidates};
-use crate::density::{Outcome, density};
+use crate::density;
 use crate::diagnostics::{describe_choice, describe_inputs, figures};
-use crate::exposure::Dimmed;
+use crate::exposure::Exposed;
 use crate::features::usable;
-use crate::first_pass::{combined, first_pass};
+use crate::first_pass::first_pass;
 use crate::kernel::within_range;
 use crate::prepare::Prepared;
 use crate::second_pass::second_pass;
 use crate::selection::Choice;
 use crate::settings::Settings;
-use crate::{Params, card};
+use crate::{Density, Params, SecondPass, card};
 
 macro_rules! entry {
     ($(#[$doc:meta])* $name:ident, $id:literal, $only:expr, $summary:literal) => {
@@ -98,13 +98,15 @@ impl Rdfc {
     fn start<'a>(
         &self,
         input: &Input<'a>,
+        epsilon: f32,
         timer: &mut StageTimer,
     ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
         check_size(self.id, input.target)?;
         // All frames are brought to the target's units.
-        let features = usable(input.target, &self.params.features);
-        let prepare =
-            |frame, timer: &mut StageTimer| Prepared::new(self.id, frame, &features, &self.settings, timer);
+        let features = usable(input.target, &self.params.features, self.settings.far);
+        let prepare = |frame, timer: &mut StageTimer| {
+            Prepared::new(self.id, frame, &features, epsilon, &self.settings, timer)
+        };
         let target = prepare(input.target, timer)?;
         let beside = input
             .before
@@ -120,10 +122,10 @@ impl Rdfc {
         Ok((target, candidates))
     }
 
-    /// [`Denoiser::denoise`] of frames within the engine's range.
-    fn filter(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+    /// [`Denoiser::denoise`] at the exposure for which ε is meant.
+    fn filter(&self, input: &Input<'_>, epsilon: f32) -> Result<Output, DenoiseError> {
         let mut timer = StageTimer::start();
-        let (target, mut candidates) = self.start(input, &mut timer)?;
+        let (target, mut candidates) = self.start(input, epsilon, &mut timer)?;
         let diagnostics = input.diagnostics != Diagnostics::Off;
         let mut output = if self.only.is_some() {
             let candidate = candidates.remove(0); // asked for one
@@ -142,6 +144,9 @@ impl Rdfc {
                 describe_choice(&mut output, &candidates, &first);
             }
             output.error_estimate = Some(first.sure);
+            if self.settings.second_pass != SecondPass::Off {
+                output.estimate_of = Some(("first pass".into(), first.mean));
+            }
             output
         };
         if let Some(estimate) = &output.error_estimate {
@@ -188,9 +193,9 @@ impl Denoiser for Rdfc {
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         input.check(&self.card())?;
         let input = &self.in_use(input);
-        let Some(dimmed) = Dimmed::new(input) else { return self.filter(input) };
-        let mut output = self.filter(&dimmed.input(input))?;
-        dimmed.undo(&mut output);
+        let exposed = Exposed::new(input);
+        let mut output = self.filter(&exposed.input(input), exposed.epsilon())?;
+        exposed.undo(&mut output);
         Ok(output)
     }
 
@@ -203,29 +208,18 @@ impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
         input.check(&self.card())?;
         let input = &self.in_use(input);
-        // A density has no unit, and 0.01 beside such values none either.
-        let dimmed = Dimmed::new(input);
-        let input = &dimmed.as_ref().map_or(*input, |dimmed| dimmed.input(input));
+        // A density has no unit.
+        let exposed = Exposed::new(input);
         let mut timer = StageTimer::start();
-        let (target, candidates) = self.start(input, &mut timer)?;
-        if self.only.is_some() {
-            let only = &candidates[0]; // asked for one
-            let outcome = Outcome {
-                mean: &only.mean,
-                sure: &only.sure,
-                weight_sum: &only.weight_sum,
-                contributing: &only.contributing,
-            };
-            return density(self.id, &target, &outcome, &self.settings);
+        let (target, candidates) = self.start(&exposed.input(input), exposed.epsilon(), &mut timer)?;
+        if self.settings.density != Density::Text {
+            return density::code(self.id, &target, &candidates[0], &self.settings);
         }
-        let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
-        let outcome = Outcome {
-            mean: &first.mean,
-            sure: &first.sure,
-            weight_sum: &combined(&candidates, &first.weights, |c| &c.weight_sum),
-            contributing: &combined(&candidates, &first.weights, |c| &c.contributing),
+        let first = match self.only {
+            Some(_) => None,
+            None => Some(first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?),
         };
-        density(self.id, &target, &outcome, &self.settings)
+        density::text(self.id, &target, &candidates, first.as_ref(), &self.settings)
     }
 }
 

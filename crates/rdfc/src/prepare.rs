@@ -1,10 +1,10 @@
 //! A frame with everything that the filters look at.
 
 use noisefloor_denoiser::{DenoiseError, StageTimer};
-use noisefloor_frame::{FeatureId, Frame, Image, Variance};
+use noisefloor_frame::{FeatureId, Frame, Image, UnitRange, Variance};
 use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, Planes};
 
-use crate::features::{Feature, Unit, prefilter, scales};
+use crate::features::{Feature, prefilter, scales};
 use crate::kernel;
 use crate::settings::Settings;
 use crate::variance::scaled_sample_variance;
@@ -18,6 +18,8 @@ pub(crate) struct Prepared<'a> {
     /// Variance of the colour's mean.
     pub variance: Image,
     pub features: Vec<Feature>,
+    /// ε of distances of the colour.
+    pub epsilon: f32,
 }
 
 impl<'a> Prepared<'a> {
@@ -25,7 +27,8 @@ impl<'a> Prepared<'a> {
     pub fn new(
         method: &str,
         frame: &'a Frame,
-        features: &[(FeatureId, Unit)],
+        features: &[(FeatureId, UnitRange)],
+        epsilon: f32,
         settings: &Settings,
         timer: &mut StageTimer,
     ) -> Result<Self, DenoiseError> {
@@ -62,7 +65,7 @@ impl<'a> Prepared<'a> {
             .map(|(id, feature, unit)| prefilter(method, frame, feature, id.name(), unit, settings))
             .collect::<Result<_, _>>()?;
         timer.finish("prefilter");
-        Ok(Self { frame, halves, variance, features })
+        Ok(Self { frame, halves, variance, features, epsilon })
     }
 
     /// Guide and features of the engine, and the halves to filter.

@@ -27,9 +27,11 @@ pub(crate) fn second_pass(
         SecondPass::Code => (settings.radius / 2, 3, &target.features),
     };
     let params = NlmParams {
-        // The program's denominator is twice the centre's own.
+        // The program's denominator of features is twice the centre's own.
         feature_k: settings.feature_k * std::f32::consts::SQRT_2,
         denominator: Denominator::Center,
+        guide_denominator: settings.second_denominator,
+        epsilon: target.epsilon,
         center: settings.center,
         ..NlmParams::new(width, height, radius, settings.color_k)
     };

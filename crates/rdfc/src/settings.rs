@@ -1,8 +1,12 @@
 //! The parameters with every "as the profile says" resolved.
 
-use noisefloor_kernels::nlm::{Center, Denominator, Rule};
+use noisefloor_frame::Far;
+use noisefloor_kernels::nlm::{Center, Denominator, GuideDenominator, Rule};
 
-use crate::params::{CenterWeight, DerivativeRule, FeatureDenominator, Profile, SecondPass, Ties};
+use crate::params::{
+    CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, Profile,
+    SecondPass, Ties,
+};
 use crate::{Gradient, Params, VarianceScaling};
 
 /// Least weight of a pixel in its own mean, for [`CenterWeight::LargestNeighbor`].
@@ -12,12 +16,86 @@ pub(crate) const FLOOR: f32 = 1e-3;
 /// τ of THIRD, and of the program's second pass.
 pub(crate) const LOW_FLOOR: f32 = 1e-4;
 
+/// What the sources, and those who measure, decide differently.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Choices {
+    gradient: Gradient,
+    depth_range: DepthRange,
+    feature_denominator: FeatureDenominator,
+    center_weight: CenterWeight,
+    derivative: DerivativeRule,
+    ties: Ties,
+    second_pass: SecondPass,
+    second_pass_denominator: ColorDenominator,
+    map_patch: usize,
+    density: Density,
+}
+
+impl Choices {
+    /// The printed text.
+    const PAPER: Self = Self {
+        gradient: Gradient::Central,
+        depth_range: DepthRange::Largest,
+        feature_denominator: FeatureDenominator::Centre,
+        center_weight: CenterWeight::One,
+        derivative: DerivativeRule::Exact,
+        ties: Ties::Earlier,
+        second_pass: SecondPass::Text,
+        second_pass_denominator: ColorDenominator::Pair,
+        map_patch: 1,
+        density: Density::Text,
+    };
+    /// The authors' program.
+    const AUTHORS: Self = Self {
+        gradient: Gradient::MinHalf,
+        depth_range: DepthRange::Common,
+        feature_denominator: FeatureDenominator::Pair,
+        center_weight: CenterWeight::LargestNeighbor,
+        derivative: DerivativeRule::Joint,
+        ties: Ties::Later,
+        second_pass: SecondPass::Code,
+        second_pass_denominator: ColorDenominator::TwiceCentre,
+        map_patch: 3,
+        density: Density::Code,
+    };
+    /// What wins by measurement.
+    const BEST: Self = Self {
+        gradient: Gradient::Central,
+        derivative: DerivativeRule::Exact,
+        density: Density::Effective,
+        ..Self::AUTHORS
+    };
+
+    fn of(params: &Params) -> Self {
+        let profile = match params.profile {
+            Profile::Paper => Self::PAPER,
+            Profile::Authors => Self::AUTHORS,
+            Profile::Best => Self::BEST,
+        };
+        Self {
+            gradient: params.gradient.unwrap_or(profile.gradient),
+            depth_range: params.depth_range.unwrap_or(profile.depth_range),
+            feature_denominator: params.feature_denominator.unwrap_or(profile.feature_denominator),
+            center_weight: params.center_weight.unwrap_or(profile.center_weight),
+            derivative: params.derivative.unwrap_or(profile.derivative),
+            ties: params.ties.unwrap_or(profile.ties),
+            second_pass: params.second_pass.unwrap_or(profile.second_pass),
+            second_pass_denominator: params
+                .second_pass_denominator
+                .unwrap_or(profile.second_pass_denominator),
+            map_patch: params.map_patch_radius_px.unwrap_or(profile.map_patch),
+            density: params.density.unwrap_or(profile.density),
+        }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Settings {
     pub radius: usize,
     pub color_k: f32,
     pub feature_k: f32,
     pub gradient: Gradient,
+    pub far: Far,
     pub prefilter: Option<Prefilter>,
     pub scaling: VarianceScaling,
     pub denominator: Denominator,
@@ -25,9 +103,9 @@ pub(crate) struct Settings {
     pub rule: Rule,
     pub ties: Ties,
     pub second_pass: SecondPass,
+    pub second_denominator: GuideDenominator,
     pub map_patch: usize,
-    /// Whether sampling densities divide by what contributes, as the program does, or by one more than that.
-    pub plain_density: bool,
+    pub density: Density,
 }
 
 /// The features' own filter.
@@ -40,51 +118,42 @@ pub(crate) struct Prefilter {
 
 impl Settings {
     pub fn new(params: &Params) -> Self {
-        let paper = params.profile == Profile::Paper;
-        let pick = |own, authors| if paper { own } else { authors };
-        let denominator = params.feature_denominator.unwrap_or(if paper {
-            FeatureDenominator::Centre
-        } else {
-            FeatureDenominator::Pair
-        });
-        let center = params.center_weight.unwrap_or(if paper {
-            CenterWeight::One
-        } else {
-            CenterWeight::LargestNeighbor
-        });
-        let rule =
-            params.derivative.unwrap_or(if paper { DerivativeRule::Exact } else { DerivativeRule::Joint });
+        let choices = Choices::of(params);
         Self {
             radius: params.window_radius_px,
             color_k: params.color_k as f32,
             feature_k: params.feature_k as f32,
-            gradient: params.gradient,
+            gradient: choices.gradient,
+            far: match choices.depth_range {
+                DepthRange::Largest => Far::Largest,
+                DepthRange::Common => Far::Common,
+            },
             prefilter: params.prefilter.then_some(Prefilter {
                 k: params.prefilter_k as f32,
                 radius: params.prefilter_window_radius_px,
                 patch: params.prefilter_patch_radius_px,
             }),
             scaling: params.variance_scaling,
-            denominator: match denominator {
+            denominator: match choices.feature_denominator {
                 FeatureDenominator::Centre => Denominator::Center,
                 FeatureDenominator::Pair => Denominator::Pair,
             },
-            center: match center {
+            center: match choices.center_weight {
                 CenterWeight::One => Center::One,
                 CenterWeight::LargestNeighbor => Center::LargestNeighbor { least: LEAST_CENTER },
             },
-            rule: match rule {
+            rule: match choices.derivative {
                 DerivativeRule::Exact => Rule::Exact,
                 DerivativeRule::Joint => Rule::Joint,
             },
-            ties: params.ties.unwrap_or(if paper { Ties::Earlier } else { Ties::Later }),
-            second_pass: params.second_pass.unwrap_or(if paper {
-                SecondPass::Text
-            } else {
-                SecondPass::Code
-            }),
-            map_patch: params.map_patch_radius_px.unwrap_or(pick(1, 3)),
-            plain_density: !paper,
+            ties: choices.ties,
+            second_pass: choices.second_pass,
+            second_denominator: match choices.second_pass_denominator {
+                ColorDenominator::Pair => GuideDenominator::Pair,
+                ColorDenominator::TwiceCentre => GuideDenominator::TwiceCenter,
+            },
+            map_patch: choices.map_patch,
+            density: choices.density,
         }
     }
 }

@@ -1,39 +1,70 @@
 //! Parts that no output shows by themselves.
 
-use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{Center, Denominator, Rule};
+use noisefloor_frame::{Far, Image};
+use noisefloor_kernels::nlm::{Center, Denominator, GuideDenominator, Rule};
 
-use crate::candidates::steps;
+use crate::candidates::{plausible, steps};
 use crate::features::squared_slope;
 use crate::settings::Settings;
-use crate::{Gradient, Params, Profile, SecondPass, Ties};
+use crate::{Density, Gradient, Params, Profile, SecondPass, Ties};
 
 #[test]
 fn profiles_decide_what_is_left_open() {
-    let paper = Settings::new(&Params::default());
+    let paper = Settings::new(&Params { profile: Profile::Paper, ..Params::default() });
     assert_eq!(
         (paper.denominator, paper.center, paper.rule),
         (Denominator::Center, Center::One, Rule::Exact)
     );
     assert_eq!((paper.ties, paper.second_pass, paper.map_patch), (Ties::Earlier, SecondPass::Text, 1));
-    assert!(!paper.plain_density);
+    assert_eq!((paper.gradient, paper.far, paper.density), (Gradient::Central, Far::Largest, Density::Text));
+    assert_eq!(paper.second_denominator, GuideDenominator::Pair);
     let program = Settings::new(&Params { profile: Profile::Authors, ..Params::default() });
     let center = Center::LargestNeighbor { least: 1e-3 };
     assert_eq!((program.denominator, program.center, program.rule), (Denominator::Pair, center, Rule::Joint));
     assert_eq!((program.ties, program.second_pass, program.map_patch), (Ties::Later, SecondPass::Code, 3));
-    assert!(program.plain_density);
+    assert_eq!(
+        (program.gradient, program.far, program.density),
+        (Gradient::MinHalf, Far::Common, Density::Code)
+    );
+    assert_eq!(program.second_denominator, GuideDenominator::TwiceCenter);
+    let best = Settings::new(&Params::default());
+    assert_eq!(best.density, Density::Effective);
+    assert_eq!(
+        (best.rule, best.gradient, best.second_denominator),
+        (Rule::Exact, Gradient::Central, GuideDenominator::TwiceCenter)
+    );
     let told = Params { ties: Some(Ties::Later), ..Params::default() };
     assert_eq!(Settings::new(&told).ties, Ties::Later);
 }
 
 #[test]
-fn steps_are_a_hundredth_or_none_for_all_channels() {
-    // Pixels: fine; one channel above 1; one zero; one negative; one next to nothing.
-    let values = [[0.5, 0.2, 1.0], [0.5, 1.5, 0.5], [0.0, 0.5, 0.5], [-0.1, 0.5, 0.5], [1e-8, 0.5, 0.5]];
-    let color = Image::from_fn(5, 1, 3, |c, x, _| values[x][c]);
-    let steps = steps(&color);
-    assert_eq!([0, 1, 2].map(|c| steps.get(c, 0, 0)), values[0].map(|v| 0.01 * v));
-    assert!((0..3).all(|c| (1..5).all(|x| steps.get(c, x, 0) == 0.0)));
+fn steps_are_a_hundredth_or_none_for_all_channels_whatever_the_exposure() {
+    // Pixels: fine; above 1, which is as fine; one zero; one negative; one next to nothing; a firefly.
+    let values = [
+        [0.5, 0.2, 1.0],
+        [0.5, 1.5, 0.5],
+        [0.0, 0.5, 0.5],
+        [-0.1, 0.5, 0.5],
+        [1e-8, 0.5, 0.5],
+        [1e9, 1.0, 1.0],
+    ];
+    for exposure in [1.0, 2.0f32.powi(-40), 2.0f32.powi(20)] {
+        let color = Image::from_fn(6, 1, 3, |c, x, _| values[x][c] * exposure);
+        let steps = steps(&color);
+        for x in [0, 1, 5] {
+            assert_eq!([0, 1, 2].map(|c| steps.get(c, x, 0)), values[x].map(|v| 0.01 * (v * exposure)));
+        }
+        assert!((0..3).all(|c| (2..5).all(|x| steps.get(c, x, 0) == 0.0)));
+    }
+}
+
+#[test]
+fn derivatives_outside_their_range_give_way_to_that_for_fixed_weights() {
+    let values = [[0.1, 0.5, 1.0], [0.1, -0.01, 0.2], [1.01, 0.5, 0.5], [0.2, 0.2, f32::NAN]];
+    let derivative = Image::from_fn(4, 1, 3, |c, x, _| values[x][c]);
+    let got = plausible(derivative, &[0.25; 4]);
+    assert_eq!([0, 1, 2].map(|c| got.get(c, 0, 0)), values[0]);
+    assert!((0..3).all(|c| (1..4).all(|x| got.get(c, x, 0) == 0.25)));
 }
 
 #[test]

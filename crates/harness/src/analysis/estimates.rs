@@ -81,6 +81,7 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
         scene: scene.to_owned(),
         spp,
         label: label.to_owned(),
+        of: found.iter().find_map(|(check, _)| check.of.clone()),
         class: class.to_owned(),
         estimated: mean(&estimated, 0.0)?,
         measured: mean(&measured, reference)?,

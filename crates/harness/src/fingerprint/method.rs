@@ -134,10 +134,14 @@ fn add_refusal(bits: &mut Bits, error: &DenoiseError) {
 
 fn add_output(bits: &mut Bits, output: &Output) {
     // Seconds differ from run to run; diagnostic images are looked at, not counted.
-    let Output { image, error_estimate, bounds, diagnostics: _, figures, stages: _ } = output;
+    let Output { image, error_estimate, estimate_of, bounds, diagnostics: _, figures, stages: _ } = output;
     bits.text("output");
     bits.image(image);
     bits.images(error_estimate);
+    if let Some((name, image)) = estimate_of {
+        bits.text(name);
+        bits.image(image);
+    }
     bits.number(bounds.len() as u64);
     for bound in bounds {
         bits.text(&bound.claim);

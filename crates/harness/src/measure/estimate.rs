@@ -75,6 +75,7 @@ impl Measure<'_> {
             deciles: deciles(pairs),
             non_finite,
             within_se: ratio_se(&blocks),
+            of: None,
         })
     }
 }

@@ -15,7 +15,7 @@ use crate::machine;
 use crate::measure::{Measure, ratio_within_se};
 use crate::observer::Stage;
 use crate::plan::{Plan, Row, wants_diagnostics};
-use crate::record::{AdaptiveRecord, NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
+use crate::record::{AdaptiveRecord, EstimateCheck, NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
 use crate::run::denoise::{Denoised, denoise};
 use crate::run::inputs::Inputs;
 use crate::run::prepare::{damaged_files, kept_context, truth};
@@ -258,7 +258,7 @@ impl Cell<'_> {
         record.seconds.denoise_runs = done.runs;
         record.seconds.stages = done.stages;
         let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
-        let Output { image: output, error_estimate, figures, .. } = done.output;
+        let Output { image: output, error_estimate, estimate_of, figures, .. } = done.output;
         record.non_finite.output_values = output.count_non_finite();
         // Where nothing was read there is nothing to measure, whatever was made up there: for no row.
         let mut image = output.clone();
@@ -283,8 +283,12 @@ impl Cell<'_> {
                 ratio_within_se(&image, &self.frame.color.mean, self.reference).map_err(metric)?;
         }
         if let Some(estimate) = &error_estimate {
-            let squared = self.measurer.squared_errors(&image).map_err(metric)?;
-            record.error_estimate = self.measure.estimate(estimate, &squared);
+            let (of, mut about) =
+                estimate_of.map_or_else(|| (None, image.clone()), |(name, image)| (Some(name), image));
+            self.hygiene.mark_invalid(&mut about);
+            let squared = self.measurer.squared_errors(&about).map_err(metric)?;
+            let check = self.measure.estimate(estimate, &squared);
+            record.error_estimate = check.map(|check| EstimateCheck { of, ..check });
         }
         record.figures = figures.into_iter().filter(|(_, value)| value.is_finite()).collect();
         let shape = |source| HarnessError::Shape { scene: scene.id.clone(), source };

@@ -113,5 +113,8 @@ fn once(row: &Row, input: &Input<'_>) -> Result<Output, Outcome> {
             target.channels()
         )));
     }
+    if let Some((name, _)) = output.estimate_of.as_ref().filter(|(_, image)| !image.same_shape(target)) {
+        return Err(failed(format!("{} gave `{name}` in another size than the frame's", row.method.id)));
+    }
     Ok(output)
 }

@@ -92,6 +92,8 @@ pub(super) struct Constants {
     pub cancellation: f32,
     /// ε.
     pub epsilon: f32,
+    /// Whether Δ² is divided by twice the variance of the pair's first pixel, not by the sum of both.
+    pub twice_center: bool,
     /// Largest Δ².
     pub largest: f32,
     /// Whether Φ² is divided by the sum of both pixels' D.
@@ -246,7 +248,8 @@ unsafe fn square<S: Simd>(d: S::F, vp: S::F, vq: S::F, constants: &Constants) ->
     unsafe {
         let noise = S::add(vp, S::min(vp, vq));
         let numerator = S::fma(S::splat(constants.cancellation), noise, S::mul(d, d));
-        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), vq);
+        let other = if constants.twice_center { vp } else { vq };
+        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), other);
         S::min(S::div(numerator, denominator), S::splat(constants.largest))
     }
 }
@@ -579,7 +582,8 @@ unsafe fn bend<S: Simd>(d: S::F, step: S::F, vp: S::F, vq: S::F, constants: &Con
     // SAFETY: as the caller vouches. The denominator is at least ε.
     unsafe {
         let noise = S::mul(S::splat(constants.cancellation), S::add(vp, S::min(vp, vq)));
-        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), vq);
+        let other = if constants.twice_center { vp } else { vq };
+        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), other);
         let inverse = S::div(S::splat(1.0), denominator);
         let largest = S::splat(constants.largest);
         let moved = S::add(d, step);

@@ -2,10 +2,12 @@
 //!
 //! Both use one thread, compute every patch distance from its pixels, and every derivative as the formula says.
 
-use super::{Center, Denominator, Filtered, NlmError, NlmInputs, NlmParams, Pass, Planes, Rule};
+use super::{
+    Center, Denominator, Filtered, GuideDenominator, NlmError, NlmInputs, NlmParams, Pass, Planes, Rule,
+};
 use crate::mirror::mirror;
 
-/// ε of Δ².
+/// Usual ε of Δ².
 pub(super) const EPSILON: f32 = 1e-10;
 /// Largest Δ² of one pixel pair and channel.
 pub(super) const LARGEST: f32 = 1e4;
@@ -35,7 +37,11 @@ macro_rules! naive_twin {
                 let (vp, vq) = (a.variance[i] as $real, b.variance[j] as $real);
                 let k = self.params.k as $real;
                 let noise = self.params.cancellation as $real * (vp + vp.min(vq));
-                ((d * d - noise) / (EPSILON as $real + k * k * (vp + vq))).min(LARGEST as $real)
+                let both = match self.params.guide_denominator {
+                    GuideDenominator::Pair => vp + vq,
+                    GuideDenominator::TwiceCenter => vp + vp,
+                };
+                ((d * d - noise) / (self.params.epsilon as $real + k * k * both)).min(LARGEST as $real)
             }
 
             /// d² of the patches around `p` and `q`, with the guide's channel c at p moved by `step[c]` under `rule`.

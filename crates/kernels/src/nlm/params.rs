@@ -1,6 +1,7 @@
 //! Parameters and input planes of the engine, and the check that both make sense.
 
 use super::NlmError;
+use super::naive::EPSILON;
 use crate::tiles::first_bad;
 
 /// Largest window radius in pixels.
@@ -19,6 +20,10 @@ pub const MAX_GUIDE_CHANNELS: usize = 4;
 pub const MAX_FEATURE_CHANNELS: usize = 32;
 /// Most passes of one call.
 pub const MAX_PASSES: usize = 4;
+/// Range of ε.
+pub const MIN_EPSILON: f32 = 1e-36;
+/// Range of ε.
+pub const MAX_EPSILON: f32 = 1e6;
 /// Range of k and k_f.
 pub const MIN_K: f32 = 1e-3;
 /// Range of k and k_f.
@@ -42,12 +47,27 @@ pub struct NlmParams {
     /// κ: share of the expected noise that is taken off squared guide differences, 0 to 4; 1 makes d² zero on average
     /// where only noise differs.
     pub cancellation: f32,
+    /// Denominator of Δ².
+    pub guide_denominator: GuideDenominator,
+    /// ε: what denominators of Δ² are at least, a variance; [`MIN_EPSILON`] to [`MAX_EPSILON`]. Guides whose values are
+    /// of order 1 have 1e-10 in rousselle2013rdfc; what is added to variances must scale with them.
+    pub epsilon: f32,
     /// k_f: damping of feature distances, [`MIN_K`] to [`MAX_K`].
     pub feature_k: f32,
     /// Denominator of Φ².
     pub denominator: Denominator,
     /// Weight of the pixel itself.
     pub center: Center,
+}
+
+/// Denominator of Δ², beside ε.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GuideDenominator {
+    /// k²·(v(p) + v(q)), as printed in rousselle2013rdfc, Sec. 4: a bright outlier q, whose variance is as large as
+    /// itself, looks similar to every p.
+    Pair,
+    /// 2·k²·v(p), as in the second pass of the authors' program: p alone says what is noise.
+    TwiceCenter,
 }
 
 /// Denominator of Φ²_j: which pixels' D = max(τ, s) it takes.
@@ -164,7 +184,7 @@ pub struct Filtered<T = f32> {
 }
 
 impl NlmParams {
-    /// Parameters of a plain guided sweep: κ = 1, k_f = 0.6 with the printed denominator, centre weight 1.
+    /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, k_f = 0.6, the printed denominators, centre weight 1.
     #[must_use]
     pub fn new(width: usize, height: usize, window_radius: usize, k: f32) -> Self {
         Self {
@@ -173,6 +193,8 @@ impl NlmParams {
             window_radius,
             k,
             cancellation: 1.0,
+            guide_denominator: GuideDenominator::Pair,
+            epsilon: EPSILON,
             feature_k: 0.6,
             denominator: Denominator::Center,
             center: Center::One,
@@ -191,6 +213,7 @@ impl NlmParams {
         count("window radius", self.window_radius, 0, MAX_WINDOW_RADIUS)?;
         real("k", self.k, MIN_K, MAX_K)?;
         real("cancellation", self.cancellation, 0.0, 4.0)?;
+        real("epsilon", self.epsilon, MIN_EPSILON, MAX_EPSILON)?;
         real("feature k", self.feature_k, MIN_K, MAX_K)?;
         if let Center::LargestNeighbor { least } = self.center {
             real("least centre weight", least, f32::MIN_POSITIVE, 1.0)?;

@@ -2,8 +2,10 @@
 
 use super::hot::{self, Block, Constants, HotPass, LOCAL, PENALTY, TileView};
 use super::layout::{KINDS, LARGEST, Layout, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
-use super::naive::{EPSILON, LARGEST as LARGEST_SQUARE};
-use super::params::{Center, Denominator, Filtered, NlmInputs, NlmParams, Pass, Planes, Rule};
+use super::naive::LARGEST as LARGEST_SQUARE;
+use super::params::{
+    Center, Denominator, Filtered, GuideDenominator, NlmInputs, NlmParams, Pass, Planes, Rule,
+};
 use crate::Level;
 use crate::grid::Grid;
 use crate::mirror::mirror;
@@ -100,7 +102,8 @@ fn sweep(
         constants: Constants {
             // k is above 0.
             cancellation: -params.cancellation / (params.k * params.k),
-            epsilon: EPSILON,
+            epsilon: params.epsilon,
+            twice_center: params.guide_denominator == GuideDenominator::TwiceCenter,
             largest: LARGEST_SQUARE,
             pair: params.denominator == Denominator::Pair,
             floors: [floors[0], *floors.last().unwrap_or(&floors[0])],

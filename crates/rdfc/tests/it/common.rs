@@ -73,8 +73,26 @@ pub fn frame(truth: &Image, sd: f32, seed: u64) -> Frame {
     frame
 }
 
-pub fn authors() -> Params {
-    Params { profile: Profile::Authors, ..Params::default() }
+pub fn of(profile: Profile) -> Params {
+    Params { profile, ..Params::default() }
+}
+
+/// What the sources say, and the default.
+pub fn profiles() -> [Params; 3] {
+    [Profile::Paper, Profile::Authors, Profile::Best].map(of)
+}
+
+/// The frame at `exposure` times its own.
+pub fn exposed(frame: &Frame, exposure: f64) -> Frame {
+    let most = f64::from(f32::MAX);
+    // Beyond the type's range, as a renderer would write it.
+    let times = |image: &Image, by: f64| image.map(|v| (f64::from(v) * by).clamp(-most, most) as f32);
+    let mut out = frame.clone();
+    out.color.mean = times(&frame.color.mean, exposure);
+    out.color.halves = frame.color.halves.as_ref().map(|h| h.each_ref().map(|half| times(half, exposure)));
+    let variance = frame.color.variance.as_ref().map(Variance::mean_variance);
+    out.color.variance = variance.map(|v| Variance::of_mean(times(v, exposure * exposure)));
+    out
 }
 
 /// The whole method and its candidates.

@@ -4,12 +4,12 @@ use noisefloor_denoiser::{DenoiseError, Denoiser, Input};
 use noisefloor_frame::{Image, Samples};
 use noisefloor_rdfc::{Params, Rdfc};
 
-use crate::common::{authors, frame, methods, ramp, run};
+use crate::common::{exposed, frame, methods, profiles, ramp, run};
 
 #[test]
 fn every_hard_case_ends_in_finite_values_or_a_typed_error() {
     for case in noisefloor_testkit::hard_cases() {
-        for params in [Params::default(), authors()] {
+        for params in profiles() {
             for method in methods(&params) {
                 noisefloor_testkit::check_method(&method, &case).unwrap_or_else(|e| panic!("{e}"));
             }
@@ -23,7 +23,7 @@ fn every_size_and_any_number_of_samples_from_two_works() {
         for samples in [2, 3, 17] {
             let mut noisy = frame(&ramp(w, h), 0.1, 11);
             noisy.samples = Samples::uniform(samples);
-            for params in [Params::default(), authors()] {
+            for params in profiles() {
                 for method in methods(&params) {
                     let output = run(&method, &noisy);
                     assert!(output.image.same_shape(&noisy.color.mean));
@@ -71,31 +71,59 @@ fn parameters_out_of_range_are_named() {
 }
 
 #[test]
-fn frames_brighter_than_the_engine_takes_come_out_as_bright() {
+fn no_result_depends_on_the_exposure() {
     let plain = frame(&ramp(20, 12), 0.1, 13);
-    let bright = |factor: f32| {
-        let mut bright = plain.clone();
-        bright.color.mean = plain.color.mean.map(|v| v * factor);
-        bright.color.halves = plain.color.halves.clone().map(|h| h.map(|half| half.map(|v| v * factor)));
-        let variance = plain.color.variance.clone().unwrap().into_mean_variance();
-        // Beyond the type's range, as a renderer would write it.
-        let variance =
-            variance.map(|v| (f64::from(v) * f64::from(factor).powi(2)).min(f32::MAX.into()) as f32);
-        bright.color.variance = Some(noisefloor_frame::Variance::of_mean(variance));
-        bright
-    };
-    for method in methods(&Params::default()) {
-        // Both take the derivative for fixed weights, as all is brighter than 1, and no constant matters beside such
-        // values.
-        let (a, b) = (run(&method, &bright(2.0f32.powi(20))), run(&method, &bright(2.0f32.powi(60))));
-        for (a, b) in a.image.data().iter().zip(b.image.data()) {
-            assert!((a * 2.0f32.powi(40) / b - 1.0).abs() < 1e-5);
+    for params in profiles() {
+        for method in methods(&params) {
+            let before = run(&method, &plain);
+            let wanted = method.adaptive().unwrap().density(&Input::new(&plain)).unwrap();
+            for k in [-40, -3, 1, 20, 50] {
+                let factor = f64::from(k).exp2();
+                let other = exposed(&plain, factor);
+                let after = run(&method, &other);
+                let back = |image: &Image, by: f64| image.map(|v| (f64::from(v) / by) as f32);
+                assert_eq!(back(&after.image, factor), before.image, "2^{k}: bit for bit");
+                let estimate = back(&after.error_estimate.unwrap(), factor * factor);
+                assert_eq!(&estimate, before.error_estimate.as_ref().unwrap(), "2^{k}");
+                assert_eq!(after.estimate_of.is_some(), before.estimate_of.is_some());
+                if let (Some((_, a)), Some((_, b))) = (after.estimate_of, &before.estimate_of) {
+                    assert_eq!(&back(&a, factor), b);
+                }
+                assert_eq!(method.adaptive().unwrap().density(&Input::new(&other)).unwrap(), wanted, "2^{k}");
+            }
+            let extreme = run(&method, &exposed(&plain, 1e38));
+            assert!(extreme.image.data().iter().all(|v| v.is_finite()));
+            assert!(extreme.error_estimate.unwrap().data().iter().all(|v| v.is_finite()));
         }
-        let estimates = [a.error_estimate.unwrap(), b.error_estimate.unwrap()];
-        let mean = |image: &Image| image.data().iter().copied().map(f64::from).sum::<f64>();
-        assert!((mean(&estimates[0]) * 2.0f64.powi(80) / mean(&estimates[1]) - 1.0).abs() < 1e-3);
-        let extreme = run(&method, &bright(1e38));
-        assert!(extreme.image.data().iter().all(|v| v.is_finite()));
-        assert!(extreme.error_estimate.unwrap().data().iter().all(|v| v.is_finite()));
+    }
+}
+
+#[test]
+fn one_firefly_of_any_size_leaves_far_pixels_what_they_were() {
+    // Beyond all windows of it: derivatives, estimates, maps and passes reach 10 + 5 + 10 pixels and patches.
+    let plain = frame(&ramp(90, 12), 0.1, 14);
+    for params in profiles() {
+        let method = Rdfc::new(params).unwrap();
+        let before = run(&method, &plain).image;
+        for size in [1e3f32, 1e9, 1e13] {
+            let mut spoilt = plain.clone();
+            let put = |image: &mut Image, value: f32| (0..3).for_each(|c| image.set(c, 4, 5, value));
+            put(&mut spoilt.color.mean, size);
+            let [a, b] = spoilt.color.halves.as_mut().unwrap();
+            put(a, 2.0 * size);
+            put(b, 0.0);
+            let mut variance = spoilt.color.variance.take().unwrap().into_mean_variance();
+            put(&mut variance, size * size);
+            spoilt.color.variance = Some(noisefloor_frame::Variance::of_mean(variance));
+            let after = run(&method, &spoilt).image;
+            let far = (60..90).flat_map(|x| (0..12).map(move |y| (x, y)));
+            for (x, y) in far {
+                for c in 0..3 {
+                    let (a, b) = (before.get(c, x, y), after.get(c, x, y));
+                    // A frame that is dimmed for its brightest value is the same frame to rounding.
+                    assert!((a - b).abs() < 1e-4 * a.abs(), "{size:e} at ({x}, {y}): {a} and {b}");
+                }
+            }
+        }
     }
 }

@@ -2,9 +2,9 @@
 
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
-use noisefloor_rdfc::{Choice, Params, Rdfc};
+use noisefloor_rdfc::{Choice, Gradient, Params, Rdfc};
 
-use crate::common::{authors, diagnose, diagnostic, frame, largest_difference, methods, ramp, run, step};
+use crate::common::{diagnose, diagnostic, frame, largest_difference, methods, profiles, ramp, run, step};
 
 /// A frame without any noise.
 fn exact(truth: &Image) -> Frame {
@@ -18,7 +18,7 @@ fn without_noise_the_input_comes_back_in_either_profile() {
     let truth = step(30, 22);
     let mut still = exact(&truth);
     still.features.insert(FeatureId::Albedo, exact(&Image::filled(30, 22, 3, 0.5)).color);
-    for profile in [Params::default(), authors()] {
+    for profile in profiles() {
         for params in [profile.clone(), Params { features: vec![], ..profile }] {
             for method in [
                 Rdfc::new(params.clone()).unwrap(),
@@ -38,7 +38,7 @@ fn without_noise_the_input_comes_back_in_either_profile() {
 #[test]
 fn constants_stay_constant() {
     let flat = Image::filled(25, 18, 3, 3.7);
-    for params in [Params::default(), authors()] {
+    for params in profiles() {
         for method in methods(&params) {
             let off = largest_difference(&run(&method, &exact(&flat)).image, &flat);
             assert!(off < 1e-6 * 3.7 * 4.0, "{off}");
@@ -51,7 +51,7 @@ fn a_black_image_stays_black() {
     let black = Image::new(25, 18, 3);
     let mut frame = exact(&black);
     frame.features.insert(FeatureId::Depth, exact(&Image::new(25, 18, 1)).color);
-    for params in [Params::default(), authors()] {
+    for params in profiles() {
         for method in methods(&params) {
             let output = run(&method, &frame);
             assert!(output.image.data().iter().all(|v| *v == 0.0));
@@ -87,7 +87,9 @@ fn a_feature_step_lets_nothing_across() {
     noisy.features.clear();
     let known = FeatureId::Extra("side".into());
     noisy.features.insert(known, exact(&side).color);
-    let params = Params { features: vec!["side".into()], ..Params::default() };
+    // The smaller of both one-sided slopes is 0 on either side of a step.
+    let gradient = Some(Gradient::MinHalf);
+    let params = Params { features: vec!["side".into()], gradient, ..Params::default() };
     let third = Rdfc::candidate(Choice::Third, params).unwrap();
     let before = run(&third, &noisy).image;
     let mut other = noisy.clone();
@@ -103,7 +105,7 @@ fn a_feature_step_lets_nothing_across() {
 
 #[test]
 fn the_first_pass_lies_between_its_candidates_with_weights_that_sum_to_one() {
-    for params in [Params::default(), authors()] {
+    for params in profiles() {
         let output = diagnose(&Rdfc::new(params).unwrap(), &frame(&step(40, 30), 0.1, 3));
         let (weights, binary) = (diagnostic(&output, "selection"), diagnostic(&output, "selection, binary"));
         let candidates = ["FIRST", "SECOND", "THIRD"].map(|n| diagnostic(&output, &format!("candidate {n}")));

@@ -3,6 +3,7 @@
 mod common;
 mod hard;
 mod limits;
+mod recipes;
 mod same;
 mod statistics;
 mod time;

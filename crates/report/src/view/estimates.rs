@@ -30,7 +30,7 @@ pub(crate) struct EstimateRow {
     pub verdict: String,
     /// Class of the verdict's tag.
     pub tone: &'static str,
-    /// Values without an estimate, if any.
+    /// Which image it is about if not the output; values without an estimate, if any.
     pub note: String,
 }
 
@@ -62,13 +62,16 @@ fn row(index: &Index<'_>, e: &EstimateSummary) -> EstimateRow {
             "too optimistic" => "plateaus",
             _ => "undecided",
         },
-        note: if e.non_finite > 0 {
-            format!(
-                "{} without a finite estimate are left out",
-                format::plural(e.non_finite as usize, "value")
-            )
-        } else {
-            String::new()
-        },
+        note: note(e),
     }
+}
+
+/// Which image it is about, and what is left out.
+fn note(e: &EstimateSummary) -> String {
+    let about = e.of.as_ref().map(|of| format!("both of the {of}, not of the output"));
+    let left_out = (e.non_finite > 0).then(|| {
+        let values = format::plural(e.non_finite as usize, "value");
+        format!("{values} without a finite estimate are left out")
+    });
+    [about, left_out].into_iter().flatten().collect::<Vec<_>>().join("; ")
 }

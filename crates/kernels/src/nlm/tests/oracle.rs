@@ -88,6 +88,22 @@ fn the_other_choices_agree() {
 }
 
 #[test]
+fn the_other_guide_denominator_and_other_epsilons_agree() {
+    for rule in [Rule::Exact, Rule::Joint] {
+        for epsilon in [1e-20, 1e-10, 1e-2] {
+            let mut case = Case::random(22, 13, 5, &candidates(true), &[3, 1]).with_step(rule);
+            case.params.guide_denominator = GuideDenominator::TwiceCenter;
+            case.params.epsilon = epsilon;
+            agrees(&case);
+            let twice = case.fast();
+            case.params.guide_denominator = GuideDenominator::Pair;
+            agrees(&case);
+            assert_ne!(twice, case.fast(), "the denominator has a say");
+        }
+    }
+}
+
+#[test]
 fn neighbouring_frames_agree() {
     for rule in [Rule::Exact, Rule::Joint] {
         agrees(&Case::random(20, 11, 3, &candidates(true), &[2]).with_neighbors(2).with_step(rule));
