@@ -108,7 +108,7 @@ fn outputs_stay_in_their_intervals_on_rendered_and_on_heavy_tailed_frames() {
     let checked = summary.cells.iter().filter(|cell| cell.enclosure_worst_ratio.is_some()).count();
     assert_eq!(checked, 4 * 2 * 4, "four rows claim an enclosure, on four scenes at two levels");
     for cell in &summary.cells {
-        assert_eq!(cell.metrics.len(), 6, "{} on {}", cell.label, cell.scene);
+        assert_eq!(cell.metrics.len(), 7, "{} on {}", cell.label, cell.scene);
         assert_eq!((cell.non_finite_output, cell.replicates), (0, 2));
     }
 }

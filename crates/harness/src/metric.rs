@@ -1,6 +1,6 @@
 //! The metric table, as a study sees it.
 
-use noisefloor_metrics::METRICS;
+use noisefloor_metrics::{Better, METRICS, Metric};
 
 use crate::summary::MetricInfo;
 
@@ -9,20 +9,28 @@ pub(crate) fn ids() -> Vec<String> {
     METRICS.iter().map(|metric| metric.id.to_owned()).collect()
 }
 
-/// The metric shown first unless a study says otherwise: `relmse` where it is listed.
+fn of(id: &str) -> Option<&'static Metric> {
+    METRICS.iter().find(|metric| metric.id == id)
+}
+
+/// The metric shown first unless a study says otherwise: `relmse` where it is listed, else the first that ranks rows.
 pub(crate) fn primary(listed: &[String]) -> String {
     let preferred = listed.iter().find(|id| *id == "relmse");
-    preferred.or(listed.first()).cloned().unwrap_or_default()
+    preferred.or(listed.iter().find(|id| ranks(id))).cloned().unwrap_or_default()
 }
 
 /// How to read a metric.
 pub(crate) fn info(id: &str) -> Option<MetricInfo> {
-    let metric = METRICS.iter().find(|metric| metric.id == id)?;
+    let metric = of(id)?;
     Some(MetricInfo {
         id: metric.id.into(),
         name: metric.name.into(),
         formula: metric.formula_text(),
-        lower_is_better: metric.lower_is_better,
+        lower_is_better: metric.better == Better::Lower,
+        ideal: match metric.better {
+            Better::CloserTo(ideal) => Some(ideal),
+            Better::Lower | Better::Higher => None,
+        },
         unit: metric.unit.into(),
         reference_noise_removed: metric.reference_noise_removed,
         order: metric.order,
@@ -31,7 +39,7 @@ pub(crate) fn info(id: &str) -> Option<MetricInfo> {
 
 /// 2 for squared errors, 1 for their roots, `None` where plain Monte Carlo has no fixed rate.
 pub(crate) fn order(id: &str) -> Option<u32> {
-    METRICS.iter().find(|metric| metric.id == id)?.order
+    of(id)?.order
 }
 
 /// The squared error that a metric is, or is the root of; `None` where plain Monte Carlo has no fixed rate.
@@ -44,5 +52,10 @@ pub(crate) fn squared(id: &str) -> Option<&str> {
 
 /// Whether smaller is better; `false` for an unknown metric.
 pub(crate) fn lower_is_better(id: &str) -> bool {
-    METRICS.iter().any(|metric| metric.id == id && metric.lower_is_better)
+    of(id).is_some_and(|metric| metric.better == Better::Lower)
+}
+
+/// Whether rows can be ranked by it; `false` for an unknown metric.
+pub(crate) fn ranks(id: &str) -> bool {
+    of(id).is_some_and(|metric| matches!(metric.better, Better::Lower | Better::Higher))
 }

@@ -73,7 +73,7 @@ pub struct Record {
     #[serde(flatten)]
     pub outcome: Outcome,
     /// Metric id to value, over all pixels; `null` in JSON if not finite. Ids: mse, rmse, relmse, relmse_trimmed, psnr,
-    /// ssim.
+    /// ssim, energy.
     pub metrics: BTreeMap<String, Option<f64>>,
     /// Metric id to the standard error that the reference's own noise contributes (common to all replicates); absent
     /// metrics have none stated.

@@ -137,6 +137,9 @@ pub struct MetricInfo {
     pub formula: String,
     /// Whether smaller is better.
     pub lower_is_better: bool,
+    /// The right value of a metric that is neither error nor score: it ranks no rows and enters no ratio.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ideal: Option<f64>,
     /// Unit, or empty.
     pub unit: String,
     /// Whether the reference's noise is taken out.

@@ -4,6 +4,10 @@
 //! n_A − 1 times what deleting the part changes, over the same root, for the relative one, whose denominator it moves too;
 //! likewise for half B. Without parts: sums of (x−(A+B)/2)(A−B) over groups of blocks of pixels, which have the spread of
 //! what the reference adds.
+//!
+//! The energy x̄/r̄ moves by −x̄/r̄² with r̄ = pĀ + qB̄: L_k = −(x̄/r̄²)·p·(P̄_k−Ā)/√(n_A(n_A−1)), without parts the sums of
+//! −(x̄/r̄²)(A−B)/2. The bias by r̄ in the denominator is of the order of its relative variance, which is that of a mean
+//! over the image, and is left.
 
 use std::collections::BTreeMap;
 
@@ -28,21 +32,32 @@ struct Sums {
     pixels: usize,
     bias: f64,
     noise: f64,
+    /// Of the image and of the reference.
+    light: [f64; 2],
     squared: Vec<f64>,
     relative: Vec<f64>,
+    energy: Vec<f64>,
 }
 
 impl Sums {
     fn new(length: usize) -> Self {
-        Self { squared: vec![0.0; length], relative: vec![0.0; length], ..Self::default() }
+        let zeros = || vec![0.0; length];
+        Self { squared: zeros(), relative: zeros(), energy: zeros(), ..Self::default() }
     }
 
     fn plus(mut self, other: &Self) -> Self {
         self.pixels += other.pixels;
         self.bias += other.bias;
         self.noise += other.noise;
-        self.squared.iter_mut().zip(&other.squared).for_each(|(a, b)| *a += b);
-        self.relative.iter_mut().zip(&other.relative).for_each(|(a, b)| *a += b);
+        self.light = [self.light[0] + other.light[0], self.light[1] + other.light[1]];
+        let influences = [
+            (&mut self.squared, &other.squared),
+            (&mut self.relative, &other.relative),
+            (&mut self.energy, &other.energy),
+        ];
+        for (own, other) in influences {
+            own.iter_mut().zip(other).for_each(|(a, b)| *a += b);
+        }
         self
     }
 }
@@ -66,6 +81,7 @@ pub(crate) fn contributions(
         sums.pixels += 1;
         sums.bias += errors.bias[p];
         sums.noise += errors.relative_plain[p] - (errors.relative[p] + errors.bias[p]);
+        sums.light = [sums.light[0] + errors.value[p], sums.light[1] + errors.truth[p]];
         source.add(test, p, sums);
     }
     let whole = |[cut, kept]: &[Sums; 2]| cut.clone().plus(kept);
@@ -133,6 +149,7 @@ impl<'m> Source<'m> {
                     let linear = (x - 0.5 * (a + b)) * (a - b);
                     sums.squared[group[p]] += linear;
                     sums.relative[group[p]] += halves_term(measurer, i, x, a, b);
+                    sums.energy[group[p]] += 0.5 * (a - b);
                 }
             }
             Self::Parts { measurer, halves } => {
@@ -152,6 +169,7 @@ impl<'m> Source<'m> {
                             let without = (own + step) * other * weight(r - share * step);
                             sums.squared[first + k] += other * off;
                             sums.relative[first + k] += degrees * (without - whole);
+                            sums.energy[first + k] += share * off;
                         }
                     }
                 }
@@ -184,6 +202,11 @@ impl<'m> Source<'m> {
         );
         if !matches!(self, Self::Nothing) {
             out.insert("mse".to_owned(), of(0.0, 0.0, &sums.squared, product));
+            let [value, truth] = sums.light.map(per_pixel);
+            if truth > 0.0 {
+                let moved: Vec<f64> = sums.energy.iter().map(|sum| -value / (truth * truth) * sum).collect();
+                out.insert("energy".to_owned(), of(0.0, 0.0, &moved, 0.0));
+            }
         }
         out
     }

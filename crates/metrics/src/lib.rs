@@ -39,6 +39,6 @@ pub use contribution::Contribution;
 pub use error::MetricError;
 pub use map::{ErrorKind, error_map};
 pub use measurer::{Classes, Measured, Measurer, Values};
-pub use table::{EPSILON, METRICS, Metric, TRIMMED_SHARE, metric};
+pub use table::{Better, EPSILON, METRICS, Metric, TRIMMED_SHARE, metric};
 pub use tone::{srgb_curve, tone_map};
 pub use trimmed::trimmed_count;

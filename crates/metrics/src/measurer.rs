@@ -177,10 +177,9 @@ impl<'a> Measurer<'a> {
                 }
             }
         }
-        let mse = values["mse"].unwrap_or(0.0);
         let (reference, class_reference) = contributions(self, test, &errors, &kept(&errors));
         Ok(Measured {
-            reference_se: self.noise.standard_errors(self, test, &errors.valid, mse, &reference),
+            reference_se: self.noise.standard_errors(self, test, &errors, &values, &reference),
             values,
             classes,
             reference,
@@ -267,12 +266,15 @@ fn kept(errors: &PixelErrors) -> Vec<bool> {
 /// All metrics over some pixels, by id.
 pub(crate) fn aggregate(errors: &PixelErrors, pixels: impl Iterator<Item = usize>) -> Values {
     let (mut squared, mut relative, mut toned, mut ssim) = (0.0, 0.0, 0.0, 0.0);
+    let (mut value, mut truth) = (0.0, 0.0);
     let (mut plain, mut corrected) = (Vec::new(), Vec::new());
     for p in pixels {
         squared += errors.squared[p];
         relative += errors.relative[p];
         toned += errors.toned[p];
         ssim += errors.ssim[p];
+        value += errors.value[p];
+        truth += errors.truth[p];
         plain.push(errors.relative_plain[p]);
         corrected.push(errors.relative[p]);
     }
@@ -296,6 +298,7 @@ pub(crate) fn aggregate(errors: &PixelErrors, pixels: impl Iterator<Item = usize
         ("relmse_trimmed", trimmed),
         ("psnr", Some(psnr)),
         ("ssim", Some(ssim * inverse)),
+        ("energy", (truth > 0.0).then(|| value / truth)),
     ]
     .map(|(id, value)| (id.to_owned(), value.filter(|v| v.is_finite())))
     .into()

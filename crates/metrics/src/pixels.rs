@@ -21,6 +21,10 @@ pub(crate) struct PixelErrors {
     pub(crate) relative_plain: Vec<f64>,
     /// Squared error after tone mapping.
     pub(crate) toned: Vec<f64>,
+    /// The image itself.
+    pub(crate) value: Vec<f64>,
+    /// The reference.
+    pub(crate) truth: Vec<f64>,
     /// Structural similarity.
     pub(crate) ssim: Vec<f64>,
     /// Values of the test image that are NaN or infinite.
@@ -42,6 +46,8 @@ impl PixelErrors {
             bias: vec![0.0; n],
             relative_plain: vec![0.0; n],
             toned: vec![0.0; n],
+            value: vec![0.0; n],
+            truth: vec![0.0; n],
             ssim: Vec::new(),
             corrected: measurer.bias.is_known(),
             non_finite_values: test.count_non_finite(),
@@ -54,6 +60,8 @@ impl PixelErrors {
             for p in (0..n).filter(|&p| errors.valid[p]) {
                 let x = f64::from(plane[p]);
                 let e = x - f64::from(mean[p]);
+                errors.value[p] += x / 3.0;
+                errors.truth[p] += f64::from(mean[p]) / 3.0;
                 let squared = measurer.numerator(c * n + p, x, e);
                 errors.squared[p] += squared / 3.0;
                 let bias = measurer.bias.at(c * n + p, e);

@@ -25,7 +25,8 @@ use noisefloor_frame::{Image, SquaredError};
 use crate::bootstrap::blocks;
 use crate::contribution::Contribution;
 use crate::influence::{Contributions, halves_term};
-use crate::measurer::Measurer;
+use crate::measurer::{Measurer, Values};
+use crate::pixels::PixelErrors;
 
 /// Parts of the reference relative to the mean of their half, and the weighted variance of the product term.
 #[derive(Debug, Default)]
@@ -77,10 +78,12 @@ impl ReferenceNoise {
         &self,
         measurer: &Measurer<'_>,
         test: &Image,
-        valid: &[bool],
-        mse: f64,
+        errors: &PixelErrors,
+        values: &Values,
         contributions: &Contributions,
     ) -> BTreeMap<String, f64> {
+        let valid = errors.valid.as_slice();
+        let mse = values["mse"].unwrap_or(0.0);
         let variance_of = |id: &str| contributions.get(id).and_then(Contribution::variance).unwrap_or(0.0);
         let variances = match measurer.squared_error() {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
@@ -89,6 +92,13 @@ impl ReferenceNoise {
             SquaredError::SubtractVariance => from_variance(measurer, test, valid),
         };
         let mut out = named(variances.map(f64::sqrt), mse);
+        if let Some(energy) = values["energy"] {
+            let variance = match measurer.squared_error() {
+                SquaredError::Halves if !self.centred[0].is_empty() => variance_of("energy"),
+                _ => (energy / mean_of_valid(&errors.truth, valid)).powi(2) * mean_variance(measurer, valid),
+            };
+            out.insert("energy".to_owned(), variance.sqrt());
+        }
         let trimmed = contributions.get("relmse_trimmed").and_then(Contribution::variance);
         out.extend(trimmed.map(|variance| ("relmse_trimmed".to_owned(), variance.sqrt())));
         out
@@ -141,6 +151,27 @@ impl ClassProducts {
 /// Values that enter a mean: three channels of each valid pixel, at least 1 so that means of nothing are 0.
 fn count(valid: &[bool]) -> f64 {
     (3 * valid.iter().filter(|&&ok| ok).count()).max(1) as f64
+}
+
+/// Mean over the pixels that take part.
+fn mean_of_valid(values: &[f64], valid: &[bool]) -> f64 {
+    let sum: f64 = values.iter().zip(valid).filter(|(_, ok)| **ok).map(|(value, _)| value).sum();
+    3.0 * sum / count(valid)
+}
+
+/// Variance of the reference's mean over all pixels and channels: from block sums of (A−B)/2, or from its variance.
+fn mean_variance(measurer: &Measurer<'_>, valid: &[bool]) -> f64 {
+    let color = &measurer.reference.frame.color;
+    match (measurer.squared_error(), &color.halves, &color.variance) {
+        (SquaredError::Halves, Some([a, b]), _) => block_variance(measurer, valid, |i| {
+            [0.5 * (f64::from(a.data()[i]) - f64::from(b.data()[i])), 0.0]
+        })[0],
+        (SquaredError::SubtractVariance, _, Some(variance)) => {
+            let variance = variance.mean_variance().data();
+            pixel_variance(measurer, valid, |i| f64::from(variance[i]).max(0.0))[0]
+        }
+        _ => 0.0,
+    }
 }
 
 /// Names the standard errors of MSE and rMSE; that of RMSE is how far the root moves with them.

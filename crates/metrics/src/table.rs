@@ -6,6 +6,27 @@ pub const EPSILON: f64 = 0.01;
 /// Share of the pixels that trimmed metrics leave out, rounded up to whole pixels.
 pub const TRIMMED_SHARE: f64 = 0.001;
 
+/// Which values of a metric are good.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Better {
+    /// Of an error.
+    Lower,
+    /// Of a score.
+    Higher,
+    /// Of a balance, which can be off to either side: not ranked, and in no ratio to another row's.
+    CloserTo(f64),
+}
+
+impl std::fmt::Display for Better {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Lower => f.write_str("lower"),
+            Self::Higher => f.write_str("higher"),
+            Self::CloserTo(ideal) => write!(f, "closer to {ideal}"),
+        }
+    }
+}
+
 /// What a metric's number means.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Metric {
@@ -19,8 +40,8 @@ pub struct Metric {
     pub epsilon: Option<f64>,
     /// What is averaged over what, in which order.
     pub averaging: &'static str,
-    /// Whether smaller is better.
-    pub lower_is_better: bool,
+    /// Which values are good.
+    pub better: Better,
     /// Unit, or empty for a pure number.
     pub unit: &'static str,
     /// Whether the reference's noise is taken out.
@@ -57,7 +78,7 @@ pub const METRICS: &[Metric] = &[
                   (x−r)²−var(r) where it has a variance only, as it stands where it is exact",
         epsilon: None,
         averaging: "mean over pixels and channels",
-        lower_is_better: true,
+        better: Better::Lower,
         unit: "radiance²",
         reference_noise_removed: true,
         order: Some(2),
@@ -69,7 +90,7 @@ pub const METRICS: &[Metric] = &[
         formula: "√max(0, MSE)",
         epsilon: None,
         averaging: "root after the mean over pixels and channels",
-        lower_is_better: true,
+        better: Better::Lower,
         unit: "radiance",
         reference_noise_removed: true,
         order: Some(1),
@@ -82,7 +103,7 @@ pub const METRICS: &[Metric] = &[
                   reference's noise in the denominator",
         epsilon: Some(EPSILON),
         averaging: "ratio per pixel and channel, then mean over pixels and channels",
-        lower_is_better: true,
+        better: Better::Lower,
         unit: "",
         reference_noise_removed: true,
         order: Some(2),
@@ -95,7 +116,7 @@ pub const METRICS: &[Metric] = &[
                   the channels is largest",
         epsilon: Some(EPSILON),
         averaging: "ratio per pixel and channel, mean over channels, then mean over the pixels kept",
-        lower_is_better: true,
+        better: Better::Lower,
         unit: "",
         reference_noise_removed: true,
         order: None,
@@ -108,7 +129,7 @@ pub const METRICS: &[Metric] = &[
                   no value for equal images",
         epsilon: None,
         averaging: "mean over pixels and channels before the logarithm",
-        lower_is_better: false,
+        better: Better::Higher,
         unit: "dB",
         reference_noise_removed: false,
         order: None,
@@ -122,7 +143,19 @@ pub const METRICS: &[Metric] = &[
                   beside left-out pixels the window is clipped and its weights are normalised",
         epsilon: None,
         averaging: "mean over pixels",
-        lower_is_better: false,
+        better: Better::Higher,
+        unit: "",
+        reference_noise_removed: false,
+        order: None,
+        non_finite: LEFT_OUT,
+    },
+    Metric {
+        id: "energy",
+        name: "energy",
+        formula: "mean x / mean r; no value where mean r is not positive",
+        epsilon: None,
+        averaging: "means over pixels and all three channels together, then their ratio",
+        better: Better::CloserTo(1.0),
         unit: "",
         reference_noise_removed: false,
         order: None,

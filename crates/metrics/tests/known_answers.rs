@@ -2,8 +2,8 @@
 
 use noisefloor_frame::{Estimate, Frame, Image, Reference, Samples, Sampling, SquaredError, Variance};
 use noisefloor_metrics::{
-    Classes, EPSILON, ErrorKind, METRICS, Measured, Measurer, MetricError, block_bootstrap, error_map,
-    metric, srgb_curve,
+    Better, Classes, EPSILON, ErrorKind, METRICS, Measured, Measurer, MetricError, block_bootstrap,
+    error_map, metric, srgb_curve,
 };
 
 fn measure(test: &Image, truth: Image) -> Measured {
@@ -102,6 +102,36 @@ fn second_order(r: f64, v: f64, y: f64, numerator: f64) -> f64 {
     let f = 1.0 / (r * r + EPSILON);
     let (slope, curvature) = (-2.0 * r * f * f, (6.0 * r * r - 2.0 * EPSILON) * f.powi(3));
     v * (0.5 * curvature * numerator - 2.0 * slope * y)
+}
+
+#[test]
+fn energy_is_the_ratio_of_means_over_pixels_that_are_whole_in_both_images() {
+    // Over all channels together: of the mean of the channels' own ratios it would be 1.
+    let truth = Image::from_fn(4, 3, 3, |c, _, _| [1.0, 2.0, 3.0][c]);
+    let mut test = Image::from_fn(4, 3, 3, |c, _, _| [1.5, 2.0, 1.5][c]);
+    let measured = measure(&test, truth.clone());
+    assert_value(&measured, "energy", 5.0 / 6.0);
+    assert!(!measured.reference_se.contains_key("energy"), "an exact truth adds nothing");
+    // A pixel with one channel that is no number is left out whole.
+    test.set(0, 1, 1, f32::NAN);
+    test.set(1, 1, 1, 1e6);
+    assert_value(&measure(&test, truth.clone()), "energy", 5.0 / 6.0);
+    assert_eq!(measure(&truth, truth.map(|_| 0.0)).values["energy"], None, "nothing to compare with");
+    assert_eq!(metric("energy").unwrap().better, Better::CloserTo(1.0));
+    assert_eq!(Better::CloserTo(1.0).to_string(), "closer to 1");
+}
+
+#[test]
+fn the_reference_moves_the_energy_by_the_relative_error_of_its_mean() {
+    // Means 0.5 off to either side of 1.5 in every pixel of one block; twice the light.
+    let halves = with_halves(Image::filled(4, 4, 3, 1.0), Image::filled(4, 4, 3, 2.0));
+    let measured = Measurer::new(&halves, None).unwrap().measure(&Image::filled(4, 4, 3, 3.0)).unwrap();
+    assert_value(&measured, "energy", 2.0);
+    assert!((measured.reference_se["energy"] - 2.0 * 0.5 / 1.5).abs() < 1e-9);
+    // Standard deviation 0.5 per value over 16 pixels whose channels may err alike.
+    let varied = with_variance(Image::filled(4, 4, 3, 1.0), Image::filled(4, 4, 3, 0.25));
+    let measured = Measurer::new(&varied, None).unwrap().measure(&Image::filled(4, 4, 3, 3.0)).unwrap();
+    assert!((measured.reference_se["energy"] - 3.0 * 0.5 / 4.0).abs() < 1e-9);
 }
 
 #[test]

@@ -157,7 +157,7 @@ fn the_spread_of_relative_errors_is_predicted_and_that_of_classes_and_trimmed_me
     let of_pixel: Vec<u8> = (0..SIZE.0 * SIZE.1).map(|p| u8::from(p % SIZE.0 >= SIZE.0 / 2)).collect();
     for (name, strip, factor) in &STATISTICS[..2] {
         let mut found: Vec<(f64, f64)> = Vec::new();
-        let mut of: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 5];
+        let mut of: Vec<Vec<(f64, f64)>> = vec![Vec::new(); 6];
         for reference in REFERENCE.iter() {
             let mut reference = reference.clone();
             strip(&mut reference);
@@ -174,6 +174,7 @@ fn the_spread_of_relative_errors_is_predicted_and_that_of_classes_and_trimmed_me
                 all("relmse_trimmed"),
                 class("left", "mse"),
                 class("right", "relmse"),
+                class("left", "energy"),
             ];
             for (list, (value, variance)) in of.iter_mut().zip(each) {
                 // 48×32 pixels are 2 blocks, too few for influences.
@@ -188,10 +189,29 @@ fn the_spread_of_relative_errors_is_predicted_and_that_of_classes_and_trimmed_me
             // Influences are of first order. References of 64 exponential samples have a relative variance of ρ² = 1/64,
             // and the next order of the relative error's variance is up to 40ρ² of it, as for a constant error of a
             // tenth of a constant truth.
-            let next = if [1, 2, 4, 5].contains(&k) { 40.0 / 64.0 } else { 0.0 };
+            let next = if [1, 2, 4, 6].contains(&k) { 40.0 / 64.0 } else { 0.0 };
             let (low, high) = (7.0 / 8.0 * (1.0 - 4.0 * error), factor * (1.0 + next + 4.0 * error));
             assert!(ratio > low && ratio < high, "{name}, {k}: {ratio}, limits {low} to {high}");
         }
+    }
+}
+
+#[test]
+fn the_spread_of_the_energy_is_predicted() {
+    let expected = {
+        let sum = |image: &Image| image.data().iter().map(|&v| f64::from(v)).sum::<f64>();
+        sum(&test_image(0.6)) / sum(scene().truth().mean())
+    };
+    for (name, strip, factor) in STATISTICS {
+        let trials = trials(0.6, "energy", strip);
+        let (mean, variance) = mean_and_variance(trials.iter().map(|t| t.value));
+        // 5 standard errors of the mean over the references, and the bias by the mean in the denominator, which is its
+        // relative variance.
+        let allowed = 5.0 * (variance / REFERENCES as f64).sqrt() + 2.0 * variance / expected;
+        assert!((mean - expected).abs() < allowed, "{name}: {mean}, expected {expected} ± {allowed}");
+        let (ratio, error) = ratio(trials.iter().map(|t| t.standard_error.powi(2)), variance);
+        let (low, high) = (7.0 / 8.0 * (1.0 - 4.0 * error), factor * (1.0 + 4.0 * error));
+        assert!(ratio > low && ratio < high, "{name}: {ratio}, limits {low} to {high}");
     }
 }
 

@@ -154,6 +154,20 @@ fn a_rate_is_drawn_for_metrics_that_have_one_only() {
 }
 
 #[test]
+fn a_balance_stands_in_the_full_table_where_it_was_measured_and_is_explained() {
+    let mut balanced = study();
+    balanced.study.metrics.push(metric("energy", "energy", "mean x / mean r", false, ""));
+    let column = "<th scope=\"col\">energy</th>";
+    let html = page(&balanced);
+    assert!(html.contains("closer to 1") && !html.contains(column), "records without it have no column");
+    for cell in &mut balanced.cells {
+        let value = cell.metrics["relmse"].clone();
+        cell.metrics.insert("energy".into(), noisefloor_harness::summary::Interval { value: 0.9, ..value });
+    }
+    assert!(page(&balanced).contains(column));
+}
+
+#[test]
 fn trimmed_and_whole_values_are_marked_as_not_comparable() {
     let html = page(&study());
     assert!(html.contains("rMSE trimmed †") && html.contains("† rMSE trimmed and rMSE cannot be compared"));

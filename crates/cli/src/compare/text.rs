@@ -32,8 +32,7 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
                 format!("{}{error}{unit}", number(value))
             }
         };
-        let better = if metric.lower_is_better { "lower" } else { "higher" };
-        rows.push(row(metric.id, all, cell, better));
+        rows.push(row(metric.id, all, cell, &metric.better.to_string()));
     }
     let pixels = |metric: &'static str| {
         move |one: &Compared<'_>| format!("{} of {}", one.pixels(metric), one.image.pixels())

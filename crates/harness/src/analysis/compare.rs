@@ -13,7 +13,7 @@ pub(super) fn comparisons(index: &Index<'_>) -> Vec<Comparison> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
-            for metric in &index.study.metrics {
+            for metric in index.study.metrics.iter().filter(|id| crate::metric::ranks(id)) {
                 out.extend(one(index, scene, spp, metric));
             }
         }

@@ -96,8 +96,13 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), HarnessError
             return wrong("metrics", key("metrics"), quoted(id), &known.join(", "));
         }
     }
-    if !study.metrics.contains(&study.primary_metric) {
-        let listed = study.metrics.join(", ");
+    if !study.metrics.contains(&study.primary_metric) || !crate::metric::ranks(&study.primary_metric) {
+        let ranking: Vec<&str> =
+            study.metrics.iter().map(String::as_str).filter(|id| crate::metric::ranks(id)).collect();
+        let listed = match ranking.as_slice() {
+            [] => "a metric that ranks rows, which `metrics` has none of".to_owned(),
+            some => some.join(", "),
+        };
         return wrong("primary_metric", key("primary_metric"), quoted(&study.primary_metric), &listed);
     }
     if let Some(bad) = study.figures.iter().find(|f| !FIGURES.contains(&f.as_str())) {

@@ -115,6 +115,7 @@ fn mistakes_in_a_study_file_are_told_with_file_and_line() {
         ("replicates = 2", "replicates = \"two\"", 4, "a number, or a table"),
         ("replicates = 2", "replicates = 2\nmetrics = [\"mse\", \"flip\"]", 5, "ssim"),
         ("replicates = 2", "replicates = 2\nprimary_metric = \"flip\"", 5, "relmse"),
+        ("replicates = 2", "replicates = 2\nprimary_metric = \"energy\"", 5, "psnr, ssim"),
         ("replicates = 2", "replicates = 2\ncoverage = [95]", 5, "between 0 and 1"),
         ("replicates = 2", "replicates = 2\nfilter = \"gauss\"", 5, "point"),
         ("replicates = 2", "replicates = 2\nfigures = [\"pie\"]", 5, "coverage, bounds"),

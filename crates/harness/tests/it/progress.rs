@@ -13,7 +13,7 @@ name = "two"
 spp = [4, 16]
 replicates = 2
 timing = { warmup = 0, runs = 1 }
-metrics = ["mse", "rmse", "relmse", "psnr"]
+metrics = ["mse", "rmse", "relmse", "psnr", "energy"]
 [[scene]]
 id = "steps"
 synthetic = { image = "edges", law = "gaussian", sd = 0.5, width = 24, height = 16 }
@@ -139,9 +139,16 @@ fn the_multiplier_of_a_root_is_that_of_its_squared_error() {
         assert_eq!(cell.equal_error["rmse"], cell.equal_error["mse"], "{} {}", cell.label, cell.spp);
         assert_eq!(cell.equal_error_extrapolated["rmse"], cell.equal_error_extrapolated["mse"]);
         assert!(!cell.equal_error.contains_key("psnr"), "no rate, no multiplier");
+        // A balance has a value and nothing that takes a better and a worse.
+        assert!((cell.metrics["energy"].value - 1.0).abs() < 0.2, "{}", cell.label);
+        assert!(!cell.equal_error.contains_key("energy") && !cell.ratio_to_mc.contains_key("energy"));
     }
+    assert!(summary.comparisons.iter().any(|c| c.metric == "psnr"));
+    assert!(summary.comparisons.iter().all(|c| c.metric != "energy"));
+    assert!(summary.slopes.iter().all(|slope| slope.metric != "energy"));
+    assert_eq!(summary.study.metrics.last().and_then(|metric| metric.ideal), Some(1.0));
     // Also where the squared error itself is not among the study's metrics.
-    let text = TWO_SCENES.replace("[\"mse\", \"rmse\", \"relmse\", \"psnr\"]", "[\"rmse\"]");
+    let text = TWO_SCENES.replace("[\"mse\", \"rmse\", \"relmse\", \"psnr\", \"energy\"]", "[\"rmse\"]");
     let alone = Place::new().run(&study(&text), &Watch::default()).unwrap();
     for (a, b) in alone.cells.iter().zip(&summary.cells) {
         assert_eq!(a.equal_error["rmse"], b.equal_error["rmse"]);

@@ -61,7 +61,8 @@ pub(crate) struct Page {
     pub flicker: Vec<FlickerView>,
     pub slopes: Vec<SlopeTable>,
     pub methods: Vec<MethodView>,
-    pub metrics: Vec<MetricInfo>,
+    /// With which values are good, in words.
+    pub metrics: Vec<(MetricInfo, String)>,
     pub scenes: Vec<SceneView>,
 }
 
@@ -155,8 +156,16 @@ pub(crate) fn page(index: &Index<'_>) -> Page {
         flicker: flicker::flicker(index),
         slopes: slopes::tables(index),
         methods: methods(index),
-        metrics: study.metrics.clone(),
+        metrics: study.metrics.iter().map(|metric| (metric.clone(), better(metric))).collect(),
         scenes: scenes(summary),
+    }
+}
+
+fn better(metric: &MetricInfo) -> String {
+    match (metric.ideal, metric.lower_is_better) {
+        (Some(ideal), _) => format!("closer to {ideal}"),
+        (None, true) => "lower".into(),
+        (None, false) => "higher".into(),
     }
 }
 

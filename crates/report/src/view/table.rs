@@ -259,7 +259,9 @@ fn skipped(index: &Index<'_>, scene: &str, spp: u32) -> Vec<(String, String, Str
 }
 
 fn metrics(index: &Index<'_>, cells: &[&CellSummary]) -> Wide {
-    let ids: Vec<&str> = index.summary.study.metrics.iter().map(|m| m.id.as_str()).collect();
+    // Records of earlier programs lack metrics that came later.
+    let measured = |id: &&str| cells.iter().any(|cell| cell.metrics.contains_key(*id));
+    let ids: Vec<&str> = index.summary.study.metrics.iter().map(|m| m.id.as_str()).filter(measured).collect();
     let rows = cells.iter().map(|cell| {
         let show =
             |id: &&str| cell.metrics.get(*id).map(format::interval).map(Texts::from).unwrap_or_default();
