@@ -23,7 +23,7 @@ struct Frame {
     /// 99 % half-widths.
     half_width: [Vec<f32>; 3],
     guide: [Vec<f32>; 3],
-    range: Vec<f32>,
+    sigma_r2: Vec<f32>,
 }
 
 impl Frame {
@@ -40,7 +40,7 @@ impl Frame {
             half_width: planes.map(|_| vec![2.656 * error; n]),
             guide: planes.map(|c| (0..n).map(|i| mean(i, c) + noise(flash_error)).collect()),
             // σ_r = 2 standard errors of the guide.
-            range: vec![1.0 / (8.0 * flash_error * flash_error); n],
+            sigma_r2: vec![4.0 * flash_error * flash_error; n],
         }
     }
 
@@ -59,10 +59,7 @@ impl Frame {
         FlashInputs {
             source: source.each_ref().map(Vec::as_slice),
             membership: if tested { Membership::Joint(half_width) } else { Membership::Off },
-            guide: Some(Guide {
-                planes: self.guide.each_ref().map(Vec::as_slice),
-                inv_two_sigma_r2: &self.range,
-            }),
+            guide: Some(Guide { planes: self.guide.each_ref().map(Vec::as_slice), sigma_r2: &self.sigma_r2 }),
         }
     }
 

@@ -10,19 +10,31 @@ use noisefloor_stats::{Level, TTable};
 /// as 0.
 #[must_use]
 pub fn half_widths(variance: &Image, samples: &Samples, level: Level) -> Image {
+    into_half_widths(variance.clone(), samples, level)
+}
+
+/// [`half_widths`] in the place of the variance.
+#[must_use]
+pub fn into_half_widths(variance: Image, samples: &Samples, level: Level) -> Image {
     let table = TTable::new(level, 2);
+    let half_width = |t: f64, variance: f32| (t * f64::from(variance.max(0.0)).sqrt()) as f32;
+    let mut out = variance;
+    if let Some(n) = samples.total().uniform().filter(|&n| n >= 2) {
+        // The usual case, in a loop without decisions.
+        let t = table.at(n);
+        out.data_mut().iter_mut().for_each(|value| *value = half_width(t, *value));
+        return out;
+    }
     // Few different counts occur, and computing a critical value costs far more than finding it again.
     let mut known = BTreeMap::new();
     let mut last = (0, f64::INFINITY);
-    let mut out = variance.clone();
     for plane in out.planes_mut() {
         for (pixel, value) in plane.iter_mut().enumerate() {
             let n = samples.at(pixel);
             if n != last.0 {
                 last = (n, *known.entry(n).or_insert_with(|| table.at(n)));
             }
-            let deviation = f64::from(value.max(0.0)).sqrt();
-            *value = if n < 2 { f32::INFINITY } else { (last.1 * deviation) as f32 };
+            *value = if n < 2 { f32::INFINITY } else { half_width(last.1, *value) };
         }
     }
     out

@@ -48,7 +48,7 @@ pub use entry::{Build, BuildError, Entry, ParamDoc, build_with, params_from};
 pub use error::DenoiseError;
 pub use guarded::Guarded;
 pub use input::{Diagnostics, Input};
-pub use interval::half_widths;
+pub use interval::{half_widths, into_half_widths};
 pub use mc::{MC_ENTRY, MonteCarlo};
 pub use needs::{Alternative, Setting};
 pub use output::{Bound, Output, StageSeconds};

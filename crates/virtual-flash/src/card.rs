@@ -62,13 +62,13 @@ fn alternatives(params: &Params) -> Vec<Alternative> {
         alternatives.push(Alternative::new("guide", "none", flash()));
     }
     if params.second_spread == SpreadKind::Halves {
-        alternatives.push(Alternative::new("second_spread", "raw", [Need::ColorHalves]));
+        alternatives.push(Alternative::new("second_spread", "least", [Need::ColorHalves]));
     }
     alternatives
 }
 
 /// One step keeps D inside the interval of its own test, which carries the bound of Theorem 3.1 (App. A). In two
-/// steps with the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
+/// steps with at most the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
 /// t₁·s/√n with probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
 fn claims(params: &Params, steps: &[Step]) -> Claims {
     let mut claims = Claims::default();
@@ -87,7 +87,7 @@ fn claims(params: &Params, steps: &[Step]) -> Claims {
         }
         [first, second] => {
             let (one, two) = (first.level, second.level);
-            if params.second_spread == SpreadKind::Raw {
+            if matches!(params.second_spread, SpreadKind::Least | SpreadKind::Raw) {
                 claims.enclosure.push(claim("composite", vec![(1.0, one), (1.0, two)], one, true));
                 claims.error_bound.push(claim("composite", vec![(2.0, one), (1.0, two)], one, true));
             }
@@ -114,6 +114,9 @@ fn notes(params: &Params) -> Vec<String> {
     }
     if params.homogeneous && params.steps == 2 {
         notes.push(match params.second_spread {
+            SpreadKind::Least => {
+                "step 2 tests with the smaller of the input's and the propagated standard error".into()
+            }
             SpreadKind::Raw => "step 2 tests with the input's standard error".into(),
             SpreadKind::Propagated => "step 2 tests with a propagated standard error: no proven bound".into(),
             SpreadKind::Halves => "step 2 tests with filtered half buffers: no proven bound".into(),

@@ -1,10 +1,14 @@
 //! The flash image F = F0 + I·S from its parts.
 
 use noisefloor_frame::{Image, luminance};
+use rayon::prelude::*;
+
+/// Values or pixels that one thread handles at a time.
+pub(crate) const CHUNK: usize = 1 << 14;
 
 /// Value at `percent` of the sorted finite values (nearest rank); 0 if there is none.
-pub(crate) fn percentile(values: impl Iterator<Item = f32>, percent: f64) -> f64 {
-    let mut values: Vec<f32> = values.filter(|v| v.is_finite()).collect();
+pub(crate) fn percentile(mut values: Vec<f32>, percent: f64) -> f64 {
+    values.retain(|v| v.is_finite());
     if values.is_empty() {
         return 0.0;
     }
@@ -13,8 +17,16 @@ pub(crate) fn percentile(values: impl Iterator<Item = f32>, percent: f64) -> f64
     f64::from(*values.select_nth_unstable_by(index, f32::total_cmp).1)
 }
 
-fn luminances(image: &Image) -> impl Iterator<Item = f32> + '_ {
-    (0..image.pixels()).map(|p| luminance([0, 1, 2].map(|c| image.plane(c)[p])))
+/// One value for each pixel from its three channels.
+pub(crate) fn per_pixel(image: &Image, value: impl Fn([f32; 3]) -> f32 + Sync) -> Vec<f32> {
+    let [r, g, b] = [0, 1, 2].map(|c| image.plane(c).par_chunks(CHUNK));
+    let mut out = vec![0.0; image.pixels()];
+    out.par_chunks_mut(CHUNK).zip(r).zip(g).zip(b).for_each(|(((out, r), g), b)| {
+        for (((out, &r), &g), &b) in out.iter_mut().zip(r).zip(g).zip(b) {
+            *out = value([r, g, b]);
+        }
+    });
+    out
 }
 
 /// I = max(0, Σ (L(N) − L(F0)) / Σ L(S)): the flash light makes up for the light that F0 lacks (Sec. 3.1).
@@ -22,30 +34,54 @@ fn luminances(image: &Image) -> impl Iterator<Item = f32> + '_ {
 /// L(N) and L(F0) are both clipped at the given percentile of L(N), so that neither a firefly nor a visible lamp, which both
 /// images show, sets the intensity. Pixels with a non-finite value are left out. Without any light in S the intensity is 0.
 pub(crate) fn intensity(color: &Image, base: &Image, light: &Image, clip_percentile: f64) -> f64 {
-    let clip = percentile(luminances(color), clip_percentile);
-    let (mut missing, mut flash) = (0.0, 0.0);
-    for ((n, f0), s) in luminances(color).zip(luminances(base)).zip(luminances(light)) {
-        if n.is_finite() && f0.is_finite() && s.is_finite() {
-            missing += f64::from(n).min(clip) - f64::from(f0).min(clip);
-            flash += f64::from(s);
-        }
-    }
+    let [n, f0, s] = [color, base, light].map(|image| per_pixel(image, luminance));
+    let clip = percentile(n.clone(), clip_percentile);
+    // Parts of fixed size, added in order: the same sum for any number of threads.
+    let parts: Vec<(f64, f64)> = (n.par_chunks(CHUNK), f0.par_chunks(CHUNK), s.par_chunks(CHUNK))
+        .into_par_iter()
+        .map(|(n, f0, s)| {
+            let (mut missing, mut flash) = (0.0, 0.0);
+            for ((&n, &f0), &s) in n.iter().zip(f0).zip(s) {
+                if n.is_finite() && f0.is_finite() && s.is_finite() {
+                    missing += f64::from(n).min(clip) - f64::from(f0).min(clip);
+                    flash += f64::from(s);
+                }
+            }
+            (missing, flash)
+        })
+        .collect();
+    let (missing, flash) = parts.into_iter().fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
     if flash > 0.0 && missing > 0.0 { missing / flash } else { 0.0 }
 }
 
 /// F = F0 + I·S.
 pub(crate) fn sum(base: &Image, light: &Image, intensity: f64) -> Image {
-    base.zip_map(light, |f0, s| (f64::from(f0) + intensity * f64::from(s)) as f32)
+    let mut out = base.clone();
+    out.data_mut().par_chunks_mut(CHUNK).zip(light.data().par_chunks(CHUNK)).for_each(|(out, light)| {
+        for (out, &s) in out.iter_mut().zip(light) {
+            *out = (f64::from(*out) + intensity * f64::from(s)) as f32;
+        }
+    });
+    out
 }
 
 /// var(F) = var(F0) + 2I·cov + I²·var(S), at least 0. An unknown covariance counts as 0.
 pub(crate) fn variance(base: &Image, light: &Image, covariance: Option<&Image>, intensity: f64) -> Image {
     let mut out = base.clone();
-    for (i, value) in out.data_mut().iter_mut().enumerate() {
-        let shared = covariance.map_or(0.0, |image| f64::from(image.data()[i]));
-        let light = f64::from(light.data()[i]);
-        *value = (f64::from(*value) + intensity * (2.0 * shared + intensity * light)).max(0.0) as f32;
-    }
+    let sum = |base: f32, shared: f32, light: f32| {
+        let (base, shared, light) = (f64::from(base), f64::from(shared), f64::from(light));
+        (base + intensity * (2.0 * shared + intensity * light)).max(0.0) as f32
+    };
+    out.data_mut().par_chunks_mut(CHUNK).zip(light.data().par_chunks(CHUNK)).enumerate().for_each(
+        |(chunk, (out, light))| match covariance.map(|image| &image.data()[chunk * CHUNK..]) {
+            None => out.iter_mut().zip(light).for_each(|(out, &light)| *out = sum(*out, 0.0, light)),
+            Some(shared) => {
+                for ((out, &light), &shared) in out.iter_mut().zip(light).zip(shared) {
+                    *out = sum(*out, shared, light);
+                }
+            }
+        },
+    );
     out
 }
 
@@ -55,11 +91,11 @@ mod tests {
 
     #[test]
     fn percentile_is_the_nearest_rank_of_the_finite_values() {
-        let values = || [3.0, f32::NAN, 1.0, 2.0, f32::INFINITY, 4.0].into_iter();
+        let values = || vec![3.0, f32::NAN, 1.0, 2.0, f32::INFINITY, 4.0];
         for (percent, expected) in [(0.1, 1.0), (25.0, 1.0), (25.1, 2.0), (99.9, 4.0), (100.0, 4.0)] {
             assert_eq!(percentile(values(), percent), expected, "{percent} %");
         }
-        assert_eq!(percentile([f32::NAN].into_iter(), 50.0), 0.0);
+        assert_eq!(percentile(vec![f32::NAN], 50.0), 0.0);
     }
 
     #[test]

@@ -1,15 +1,18 @@
 use noisefloor_denoiser::{
     DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Output, StageTimer, build_with,
 };
-use noisefloor_frame::{Frame, Image, Variance};
+use noisefloor_frame::{Frame, Image};
+use noisefloor_kernels::Level;
 use noisefloor_kernels::flash_filter::{
     self, FlashFilterError, FlashInputs, FlashParams, MAX_PIXELS, MAX_SOURCE, PatchWeights,
 };
+use rayon::prelude::*;
 
 use crate::diagnostics::describe_step;
+use crate::flash::CHUNK;
 use crate::guide::Guide;
 use crate::params::Step;
-use crate::spread::FirstStep;
+use crate::spread::{Along, tested_variance};
 use crate::tolerance::Tolerance;
 use crate::{Params, card};
 
@@ -61,21 +64,32 @@ impl VirtualFlash {
         }
     }
 
-    /// Half-widths of a step's test: step 1 always takes the input's standard error, step 2 what `second_spread` says.
-    fn tolerance(
+    /// One step: the filtered image, and the sums of what it carries.
+    pub(crate) fn step(
         &self,
         frame: &Frame,
-        guide: Option<&Guide>,
-        before: Option<&Tolerance>,
         step: &Step,
-    ) -> Tolerance {
-        let raw = frame.color.variance.as_ref().map(Variance::mean_variance);
-        let filtered = before.filter(|_| self.params.homogeneous).and_then(|tolerance| {
-            let first = FirstStep { frame, guide, patch: &self.patch, step: &self.steps[0], tolerance };
-            first.variance(self.params.second_spread)
-        });
-        Tolerance::new(&self.params, filtered.as_ref().or(raw), &frame.samples, step.level)
+        inputs: &FlashInputs<'_>,
+        along: Option<&Along<'_>>,
+    ) -> Result<(Image, Option<Image>), DenoiseError> {
+        let (params, level) = (self.kernel_params(frame, step), Level::best());
+        let mut image = Image::new(frame.width(), frame.height(), 3);
+        let Some(along) = along else {
+            flash_filter::filter_into(&params, inputs, level, planes_mut(&mut image))
+                .map_err(kernel_error)?;
+            return Ok((image, None));
+        };
+        let mut sums = Image::new(frame.width(), frame.height(), 3);
+        let out = [planes_mut(&mut image), planes_mut(&mut sums)];
+        flash_filter::filter_carrying_into(&params, inputs, &along.carried(), level, out)
+            .map_err(kernel_error)?;
+        Ok((image, Some(sums)))
     }
+}
+
+fn planes_mut(image: &mut Image) -> [&mut [f32]; 3] {
+    let mut planes = image.planes_mut();
+    [(); 3].map(|()| planes.next().expect("three channels"))
 }
 
 impl Default for VirtualFlash {
@@ -84,13 +98,17 @@ impl Default for VirtualFlash {
     }
 }
 
-fn inputs<'a>(source: &'a Image, guide: Option<&'a Guide>, tolerance: &'a Tolerance) -> FlashInputs<'a> {
+pub(crate) fn inputs<'a>(
+    source: &'a Image,
+    guide: Option<&'a Guide>,
+    tolerance: &'a Tolerance,
+) -> FlashInputs<'a> {
     FlashInputs {
         source: [0, 1, 2].map(|c| source.plane(c)),
         membership: tolerance.membership(),
         guide: guide.map(|guide| flash_filter::Guide {
             planes: [0, 1, 2].map(|c| guide.image.plane(c)),
-            inv_two_sigma_r2: &guide.inv_two_sigma_r2,
+            sigma_r2: &guide.sigma_r2,
         }),
     }
 }
@@ -105,46 +123,55 @@ impl Denoiser for VirtualFlash {
         let frame = input.target;
         let probe = probe(input)?;
         check_size(frame)?;
-        check_values(&frame.color.mean, MAX_SOURCE, "colour is not finite or above 1e30")?;
+        check_values(&frame.color.mean, |v| v.abs() <= MAX_SOURCE, "colour is not finite or above 1e30")?;
         let mut timer = StageTimer::start();
 
         // Sec. 3.1: flash image, or what stands for it, and the width of its range weights.
         let guide = Guide::new(frame, &self.params, &self.patch);
         if let Some(guide) = &guide {
-            check_values(&guide.image, f32::MAX, "guide image is not finite")?;
+            check_values(&guide.image, |v| v.is_finite(), "guide image is not finite")?;
         }
         timer.finish("guide");
 
-        // Sec. 3.2, 3.3 and 3.5: one or two passes over homogeneous pixels.
-        let mut output = Output::from_image(frame.color.mean.clone());
-        let mut looked_at: Vec<(Image, Tolerance)> = Vec::new();
-        let mut before = None;
-        for step in &self.steps {
-            let tolerance = self.tolerance(frame, guide.as_ref(), before.as_ref(), step);
-            let planes = flash_filter::filter(
-                &self.kernel_params(frame, step),
-                &inputs(&output.image, guide.as_ref(), &tolerance),
-            )
-            .map_err(kernel_error)?;
-            let filtered = Image::from_vec(frame.width(), frame.height(), 3, planes.concat())
-                .expect("the kernel gives one value per pixel and channel");
-            let source = std::mem::replace(&mut output.image, filtered);
-            if probe.is_some() {
-                looked_at.push((source, tolerance.clone()));
-            }
-            before = Some(tolerance);
+        // Sec. 3.2, 3.3 and 3.5: one or two passes over homogeneous pixels. What the test takes as spread is the input's at
+        // first, and then what the first step made of it.
+        let tested = tested_variance(frame, &self.params);
+        let along = Along::new(frame, &self.params, tested.as_deref());
+        if let Some(Along::Variances(variance)) = along {
+            check_values(variance, |v| (0.0..=f32::MAX).contains(&v), "variance is negative or not finite")?;
+        }
+        let raw = || tested.as_deref().cloned();
+        let tolerance =
+            |variance, step: &Step| Tolerance::new(&self.params, variance, &frame.samples, step.level);
+        let (first, guide_of) = (&self.steps[0], guide.as_ref());
+        let first_tolerance = tolerance(raw(), first);
+        let first_inputs = inputs(&frame.color.mean, guide_of, &first_tolerance);
+        let (mut image, sums) = self.step(frame, first, &first_inputs, along.as_ref())?;
+        timer.finish(first.name);
+        let mut second = None;
+        if let Some(step) = self.steps.get(1) {
+            let variance = match (&along, sums) {
+                (Some(along), Some(sums)) => {
+                    Some(along.variance(sums, self.params.second_spread, &frame.samples))
+                }
+                _ => raw(),
+            };
+            let tolerance = tolerance(variance, step);
+            let (filtered, _) = self.step(frame, step, &inputs(&image, guide_of, &tolerance), None)?;
+            second = Some((step, std::mem::replace(&mut image, filtered), tolerance));
             timer.finish(step.name);
         }
 
-        figures(&mut output, guide.as_ref());
+        let mut output = Output::from_image(image);
+        figures(&mut output, guide_of);
         if let Some(probe) = probe {
-            for (step, (source, tolerance)) in self.steps.iter().zip(&looked_at) {
-                let inputs = inputs(source, guide.as_ref(), tolerance);
+            let params = self.kernel_params(frame, first);
+            describe_step(&mut output, first.name, &params, &first_inputs, probe).map_err(kernel_error)?;
+            if let Some((step, source, tolerance)) = second {
                 let params = self.kernel_params(frame, step);
+                let inputs = inputs(&source, guide_of, &tolerance);
                 describe_step(&mut output, step.name, &params, &inputs, probe).map_err(kernel_error)?;
-            }
-            if let Some((after_first, _)) = looked_at.into_iter().nth(1) {
-                output.diagnostics.push(("after step 1".into(), after_first));
+                output.diagnostics.push(("after step 1".into(), source));
             }
             if let Some(guide) = guide {
                 output.diagnostics.push(("guide image".into(), guide.image));
@@ -201,10 +228,13 @@ fn check_size(frame: &Frame) -> Result<(), DenoiseError> {
 }
 
 /// Refuses values that the filter has no answer for, with the number of pixels that hold one.
-fn check_values(image: &Image, limit: f32, what: &'static str) -> Result<(), DenoiseError> {
-    // The usual case, without bookkeeping; a NaN fails the comparison.
-    let good = |v: f32| v.abs() <= limit;
-    if image.data().iter().fold(true, |all, &v| all & good(v)) {
+fn check_values(
+    image: &Image,
+    good: impl Fn(f32) -> bool + Sync,
+    what: &'static str,
+) -> Result<(), DenoiseError> {
+    // The usual case, without bookkeeping; a NaN fails every comparison.
+    if image.data().par_chunks(CHUNK).all(|part| part.iter().fold(true, |all, &v| all & good(v))) {
         return Ok(());
     }
     let bad: Vec<usize> =

@@ -31,9 +31,12 @@ pub enum TestKind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SpreadKind {
+    /// The smaller of `Raw` and `Propagated`, per pixel and channel.
+    Least,
     /// s_p/√n_p of the input, as in step 1.
     Raw,
-    /// √(Σ w̄²·s_q²/n_q) with the normalised weights of step 1, as if its inputs were not shared between pixels: too small.
+    /// √(Σ w̄²·s_q²/n_q) with the normalised weights of step 1, as if its inputs were not shared between pixels: too small
+    /// where they are alike, and above the input's own where neighbours are noisier.
     Propagated,
     /// Both half buffers filtered with the weights of step 1, their squared difference as the variance; t keeps n_p−1
     /// degrees of freedom.
@@ -70,8 +73,10 @@ pub struct Params {
     pub patch_radius_px: usize,
     /// Standard deviation of the patch's Gaussian weights, pixels.
     pub patch_sigma_px: f64,
-    /// κ: σ_r over the standard error of the guide.
+    /// κ of the flash image: σ_r over the standard error of the guide.
     pub kappa: f64,
+    /// κ where the noisy colour is the guide.
+    pub color_kappa: f64,
     /// Least σ_r, as a fraction of the guide's bright level (its `luminance_clip_percentile`).
     pub guide_floor: f64,
     /// Factor on the intensity of the virtual flash light that the heuristic gives.
@@ -87,7 +92,7 @@ impl Default for Params {
             guide: GuideKind::Flash,
             homogeneous: true,
             test: TestKind::Joint,
-            second_spread: SpreadKind::Raw,
+            second_spread: SpreadKind::Least,
             first_window_radius_px: 3,
             first_confidence: 0.998,
             first_sigma_ratio: 1.0 / 3.0,
@@ -97,6 +102,7 @@ impl Default for Params {
             patch_radius_px: 2,
             patch_sigma_px: 1.25,
             kappa: 2.0,
+            color_kappa: 2.0,
             guide_floor: 1e-4,
             intensity_scale: 1.0,
             luminance_clip_percentile: 99.9,
@@ -129,7 +135,7 @@ impl Params {
         doc("guide", "flash | color | none", "F: the image that range weights come from (Eq. 1)"),
         doc("homogeneous", "true | false", "only homogeneous pixels count; off voids every claim (Sec. 3.3)"),
         doc("test", "joint | per-channel | luminance", "what homogeneous pixels are compared by (Eq. 2)"),
-        doc("second_spread", "raw | propagated | halves", "standard error of the test in step 2"),
+        doc("second_spread", "least | raw | propagated | halves", "standard error of the test in step 2"),
         doc("first_window_radius_px", RADIUS, "radius of Ω in step 1 (Sec. 3.5: 7×7)"),
         doc("first_confidence", CONFIDENCE, "1−α of step 1 (Sec. 3.5: 99.8 %)"),
         doc("first_sigma_ratio", RATIO, "σ_s of step 1 over the width of its window"),
@@ -138,7 +144,12 @@ impl Params {
         doc("second_sigma_ratio", RATIO, "σ_s of step 2 over the width of its window (Sec. 4: 1/3)"),
         doc("patch_radius_px", "0 to 3 px", "radius of the patch u (Sec. 4: 5×5)"),
         doc("patch_sigma_px", "0.01 to 1000 px", "standard deviation of the patch weights"),
-        doc("kappa", "0.001 to 1000", "κ: σ_r over the standard error of the guide (Sec. 4: proportional)"),
+        doc(
+            "kappa",
+            "0.001 to 1000",
+            "κ: σ_r over the standard error of the flash image (Sec. 4: proportional)",
+        ),
+        doc("color_kappa", "0.001 to 1000", "κ with guide = color"),
         doc("guide_floor", "0 to 1", "least σ_r, as a fraction of the guide's bright level"),
         doc("intensity_scale", "0 to 1000", "factor on the heuristic flash intensity (Fig. 3)"),
         doc(
@@ -201,7 +212,8 @@ impl Params {
             ("second_sigma_ratio", ratio(self.second_sigma_ratio)),
             ("patch_radius_px", self.patch_radius_px <= MAX_PATCH_RADIUS),
             ("patch_sigma_px", (0.01..=1e3).contains(&self.patch_sigma_px)),
-            ("kappa", (1e-3..=1e3).contains(&self.kappa)),
+            ("kappa", ratio(self.kappa)),
+            ("color_kappa", ratio(self.color_kappa)),
             ("guide_floor", (0.0..=1.0).contains(&self.guide_floor)),
             ("intensity_scale", (0.0..=1e3).contains(&self.intensity_scale)),
             (

@@ -63,6 +63,9 @@ fn wild_frame(seed: u64) -> Frame {
     f
 }
 
+const SPREADS: [SpreadKind; 4] =
+    [SpreadKind::Least, SpreadKind::Raw, SpreadKind::Propagated, SpreadKind::Halves];
+
 fn steps() -> [Params; 2] {
     [Params::default(), Params { steps: 1, ..Params::default() }]
 }

@@ -1,8 +1,8 @@
 //! Half-widths of the homogeneity test (Eq. 2).
 
-use noisefloor_denoiser::half_widths;
-use noisefloor_frame::{Image, Samples, luminance};
-use noisefloor_kernels::flash_filter::{self, Membership};
+use noisefloor_denoiser::into_half_widths;
+use noisefloor_frame::{Image, Samples};
+use noisefloor_kernels::flash_filter::Membership;
 use noisefloor_stats::Level;
 
 use crate::{Params, TestKind};
@@ -21,15 +21,14 @@ pub(crate) enum Tolerance {
 }
 
 impl Tolerance {
-    /// From the variance of what is tested; `None` switches the test off.
-    pub fn new(params: &Params, variance: Option<&Image>, samples: &Samples, level: Level) -> Self {
-        let Some(variance) = variance.filter(|_| params.homogeneous) else { return Self::Off };
+    /// From the variance of what is tested, see [`crate::spread`]; `None` switches the test off.
+    pub fn new(params: &Params, variance: Option<Image>, samples: &Samples, level: Level) -> Self {
+        let Some(variance) = variance else { return Self::Off };
+        let half_widths = into_half_widths(variance, samples, level);
         match params.test {
-            TestKind::Joint => Self::Joint(half_widths(variance, samples, level)),
-            TestKind::PerChannel => Self::PerChannel(half_widths(variance, samples, level)),
-            TestKind::Luminance => {
-                Self::Luminance(half_widths(&luminance_variance(variance), samples, level))
-            }
+            TestKind::Joint => Self::Joint(half_widths),
+            TestKind::PerChannel => Self::PerChannel(half_widths),
+            TestKind::Luminance => Self::Luminance(half_widths),
         }
     }
 
@@ -42,33 +41,4 @@ impl Tolerance {
             Self::Luminance(image) => Membership::Luminance(image.plane(0)),
         }
     }
-
-    /// For each channel, whether pixel `q` is homogeneous with `p`: the kernel's test, for the loops that it does not cover.
-    pub fn members(&self, source: &Image, p: usize, q: usize) -> [bool; 3] {
-        let passes = |v_p: f32, v_q: f32, tolerance: f32| {
-            (v_q - v_p).abs() <= flash_filter::half_width(tolerance, v_p)
-        };
-        let channel =
-            |image: &Image, c: usize| passes(source.plane(c)[p], source.plane(c)[q], image.plane(c)[p]);
-        match self {
-            Self::Off => [true; 3],
-            Self::Joint(image) => [(0..3).all(|c| channel(image, c)); 3],
-            Self::PerChannel(image) => [0, 1, 2].map(|c| channel(image, c)),
-            Self::Luminance(image) => {
-                let of = |p: usize| {
-                    let [r, g, b] = [0, 1, 2].map(|c| source.plane(c)[p]);
-                    flash_filter::luminance(r, g, b)
-                };
-                [passes(of(p), of(q), image.plane(0)[p]); 3]
-            }
-        }
-    }
-}
-
-/// Variance of luminance if the channels were fully correlated: (Σ weight·standard deviation)². An upper bound of the true
-/// one, whose covariances a frame does not carry.
-fn luminance_variance(variance: &Image) -> Image {
-    Image::from_fn(variance.width(), variance.height(), 1, |_, x, y| {
-        luminance([0, 1, 2].map(|c| variance.get(c, x, y).max(0.0).sqrt())).powi(2)
-    })
 }

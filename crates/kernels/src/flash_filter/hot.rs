@@ -30,9 +30,15 @@ pub(super) struct TileView<'a> {
     pub guide: &'a [f32],
     /// Half-widths of the tests: one plane for [`SINGLE`], else three.
     pub half_width: &'a [f32],
-    /// Factor from patch sum to exponent of 2, at most 0; empty without a guide.
-    pub factor: &'a [f32],
-    /// Accumulators: three sums of weighted differences, then three weight sums for [`SEPARATE`], else one.
+    /// Each pixel's share of what patch sums are divided by for an exponent of 2, on the source's grid and greater
+    /// than 0; empty without a guide.
+    pub noise: &'a [f32],
+    /// Three planes that are summed along, on the source's grid; empty if there are none.
+    pub carried: &'a [f32],
+    /// Whether carried planes are summed with squared weights.
+    pub squared: bool,
+    /// Accumulators: three sums of weighted differences, then three weight sums for [`SEPARATE`], else one, and from
+    /// the seventh on three sums of carried planes.
     pub sums: &'a mut [f32],
     /// Vertical patch sums.
     pub columns: &'a mut [f32],
@@ -84,11 +90,7 @@ pub(super) unsafe fn pass<S: Simd>(tile: &mut TileView<'_>, block: &Block, rule:
     // SAFETY: passed on unchanged.
     unsafe {
         if tile.guide.is_empty() {
-            return match rule {
-                JOINT => accumulate::<S, 0, JOINT, false>(tile, block),
-                SEPARATE => accumulate::<S, 0, SEPARATE, false>(tile, block),
-                _ => accumulate::<S, 0, SINGLE, false>(tile, block),
-            };
+            return ruled::<S, 0, false>(tile, block, rule);
         }
         match tile.layout.patch {
             0 => guided::<S, 0>(tile, block, rule),
@@ -113,10 +115,24 @@ unsafe fn guided<S: Simd, const PATCH: usize>(tile: &mut TileView<'_>, block: &B
         if first < block.count {
             patch_columns::<S, PATCH, 1>(tile, block, first);
         }
+        ruled::<S, PATCH, true>(tile, block, rule);
+    }
+}
+
+/// # Safety
+/// As [`pass`].
+#[inline(always)]
+unsafe fn ruled<S: Simd, const PATCH: usize, const GUIDED: bool>(
+    tile: &mut TileView<'_>,
+    block: &Block,
+    rule: usize,
+) {
+    // SAFETY: passed on unchanged.
+    unsafe {
         match rule {
-            JOINT => accumulate::<S, PATCH, JOINT, true>(tile, block),
-            SEPARATE => accumulate::<S, PATCH, SEPARATE, true>(tile, block),
-            _ => accumulate::<S, PATCH, SINGLE, true>(tile, block),
+            JOINT => accumulate::<S, PATCH, JOINT, GUIDED>(tile, block),
+            SEPARATE => accumulate::<S, PATCH, SEPARATE, GUIDED>(tile, block),
+            _ => accumulate::<S, PATCH, SINGLE, GUIDED>(tile, block),
         }
     }
 }
@@ -227,6 +243,25 @@ unsafe fn weigh<S: Simd, const GUIDED: bool>(member: S::M, weight: S::F, scale: 
     unsafe { if GUIDED { S::keep_scaled(member, weight, scale) } else { S::keep(member, weight) } }
 }
 
+/// Adds one offset to the sum of a carried plane.
+///
+/// The sum stays in memory: passes that carry nothing, the costly ones, keep their registers, and one form of
+/// [`accumulate`] serves both.
+///
+/// # Safety
+/// As [`pass`], with planes to carry; `here` is a pixel of the tile, `there` its neighbour on the source's grid.
+#[inline(always)]
+unsafe fn carry<S: Simd>(tile: &mut TileView<'_>, channel: usize, weight: S::F, here: usize, there: usize) {
+    let Layout { source, pixel, .. } = *tile.layout;
+    // SAFETY: as the caller vouches.
+    unsafe {
+        let value = at::<S>(tile.carried, channel * source.plane + there);
+        let place = (6 + channel) * pixel.plane + here;
+        let weight = if tile.squared { S::mul(weight, weight) } else { weight };
+        put::<S>(tile.sums, place, S::fma(weight, value, at::<S>(tile.sums, place)));
+    }
+}
+
 /// Adds the block's offsets to the running sums of every pixel of the tile.
 ///
 /// # Safety
@@ -239,6 +274,7 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
     let Layout { source, pixel, columns, .. } = *tile.layout;
     let shift = block.dy * source.pitch as isize + block.dx;
     let (taps, count) = (tile.taps, block.count.min(BLOCK));
+    let carries = !tile.carried.is_empty();
     // SAFETY: the caller vouches for the instruction set; the source copies reach `reach` pixels beyond the tile.
     unsafe {
         let lowest = S::splat(-126.0);
@@ -261,7 +297,7 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                     p[3] = at::<S>(tile.source, 3 * source.plane + center);
                     half_width[0] = at::<S>(tile.half_width, here);
                 }
-                let factor = if GUIDED { at::<S>(tile.factor, here) } else { lowest };
+                let noise = if GUIDED { at::<S>(tile.noise, center) } else { lowest };
                 let mut sum = [S::splat(0.0); 3];
                 let mut weights = [S::splat(0.0); 3];
                 for c in 0..3 {
@@ -275,7 +311,8 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                     let (mut exponent, mut weight, mut scale) = (lowest, spatial, lowest);
                     if GUIDED {
                         let patch = patch_sum::<S, PATCH>(tile.columns, from + o * columns.plane, &taps);
-                        exponent = S::fma(patch, factor, spatial);
+                        let pair = S::add(noise, at::<S>(tile.noise, there + o));
+                        exponent = S::sub(spatial, S::div(patch, pair));
                         (weight, scale) = S::exp2(exponent);
                     }
                     // False for weights below the normal range and for the NaN of an overflowed distance.
@@ -290,6 +327,9 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                             let w = weigh::<S, GUIDED>(member, weight, scale);
                             sum[c] = S::fma(w, d[c], sum[c]);
                             weights[c] = S::add(weights[c], w);
+                            if carries {
+                                carry::<S>(tile, c, w, here, there + o);
+                            }
                         }
                         continue;
                     }
@@ -307,6 +347,11 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                         sum[c] = S::fma(w, d[c], sum[c]);
                     }
                     weights[0] = S::add(weights[0], w);
+                    if carries {
+                        for c in 0..3 {
+                            carry::<S>(tile, c, w, here, there + o);
+                        }
+                    }
                 }
                 for c in 0..3 {
                     put::<S>(tile.sums, c * pixel.plane + here, sum[c]);

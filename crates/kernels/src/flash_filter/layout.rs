@@ -18,11 +18,11 @@ pub(super) struct Layout {
     pub reach: usize,
     /// Patch radius f.
     pub patch: usize,
-    /// Source copies: the tile and r pixels around it.
+    /// Copies of the source, of the guide's noise and of carried planes: the tile and r pixels around it.
     pub source: Grid,
     /// Guide copies: the tile and r + f pixels around it.
     pub guide: Grid,
-    /// Half-widths, range factors and accumulators: the tile alone.
+    /// Half-widths and accumulators: the tile alone.
     pub pixel: Grid,
     /// Vertical patch sums: the tile and f columns on both sides, one plane for each offset of a block.
     pub columns: Grid,

@@ -6,7 +6,8 @@
 //! ```text
 //! H(p)   = { q ∈ Ω_p : |x̄_q − x̄_p| ≤ τ_p + 4·eps·max(|x̄_p|, |x̄_q|) }          τ_p = t·s_p/√n_p
 //! d²     = Σ_j G(j) · ⅓ Σ_c (F_c(p+j) − F_c(q+j))²                              Σ_j G(j) = 1
-//! w(p,q) = exp(−|p−q|²/(2σ_s²)) · exp(−d²/(2σ_r²(p)))
+//! σ_r²   = (σ_r²(p) + σ_r²(q))/2                                                d² carries the noise of both pixels
+//! w(p,q) = exp(−|p−q|²/(2σ_s²)) · exp(−d²/(2σ_r²))
 //! D_p    = x̄_p + Σ_{q∈H(p)} w(p,q)·(x̄_q − x̄_p) / Σ_{q∈H(p)} w(p,q)
 //! ```
 //!
@@ -30,8 +31,8 @@ pub use diagnostics::{HomogeneousWindow, homogeneous_counts, homogeneous_window}
 pub use error::FlashFilterError;
 pub use members::{half_width, luminance};
 pub use params::{
-    FlashInputs, FlashParams, Guide, MAX_PATCH_RADIUS, MAX_PIXELS, MAX_SOURCE, MAX_WINDOW_RADIUS, Membership,
-    PatchWeights,
+    Carried, Filtered, FlashInputs, FlashParams, Guide, MAX_PATCH_RADIUS, MAX_PIXELS, MAX_SOURCE,
+    MAX_WINDOW_RADIUS, Membership, PatchWeights,
 };
 
 use crate::Level;
@@ -65,8 +66,65 @@ pub fn filter(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32
     params.check(inputs)?;
     let mut out = [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let [r, g, b] = &mut out;
-    tiled::filter(params, inputs, Level::best(), tiled::TILE, [r, g, b]);
+    tiled::filter(params, inputs, None, Level::best(), tiled::TILE, [r, g, b].map(Vec::as_mut_slice));
     Ok(out)
+}
+
+/// As [`filter`], and sums other planes along with the same sets and weights.
+///
+/// # Errors
+/// As [`FlashParams::check`] and [`FlashParams::check_carried`].
+///
+/// ```
+/// use noisefloor_kernels::flash_filter::{
+///     Carried, FlashInputs, FlashParams, Membership, PatchWeights, filter_carrying,
+/// };
+///
+/// // The mean of two values of variance 1 has variance 1/2, that of three 1/3.
+/// let params = FlashParams {
+///     width: 3,
+///     height: 1,
+///     window_radius: 1,
+///     spatial_sigma: f32::INFINITY,
+///     patch: PatchWeights::gaussian(2, 1.25)?,
+/// };
+/// let inputs = FlashInputs { source: [&[0.0; 3]; 3], membership: Membership::Off, guide: None };
+/// let filtered = filter_carrying(&params, &inputs, &Carried::Variances([&[1.0; 3]; 3]))?;
+/// assert_eq!(filtered.carried[0], [0.5, 1.0 / 3.0, 0.5]);
+/// # Ok::<(), noisefloor_kernels::flash_filter::FlashFilterError>(())
+/// ```
+pub fn filter_carrying(
+    params: &FlashParams,
+    inputs: &FlashInputs<'_>,
+    carried: &Carried<'_>,
+) -> Result<Filtered, FlashFilterError> {
+    params.check(inputs)?;
+    params.check_carried(carried)?;
+    let planes = || [(); 3].map(|()| vec![0.0; params.width * params.height]);
+    let mut out = Filtered { image: planes(), carried: planes() };
+    let all = out.image.iter_mut().chain(&mut out.carried).map(Vec::as_mut_slice);
+    tiled::filter(params, inputs, Some(carried), Level::best(), tiled::TILE, all);
+    Ok(out)
+}
+
+/// [`filter_carrying`] into planes, first the image's and then the carried ones, with a given instruction set. Every
+/// level gives the same bits.
+///
+/// # Errors
+/// As [`filter_carrying`] and [`filter_into`].
+pub fn filter_carrying_into(
+    params: &FlashParams,
+    inputs: &FlashInputs<'_>,
+    carried: &Carried<'_>,
+    level: Level,
+    [image, sums]: [[&mut [f32]; 3]; 2],
+) -> Result<(), FlashFilterError> {
+    params.check(inputs)?;
+    params.check_carried(carried)?;
+    check_output(params, level, &image)?;
+    check_output(params, level, &sums)?;
+    tiled::filter(params, inputs, Some(carried), level, tiled::TILE, image.into_iter().chain(sums));
+    Ok(())
 }
 
 /// Filters into three planes with a given instruction set. Every level gives the same bits.
@@ -80,15 +138,20 @@ pub fn filter_into(
     out: [&mut [f32]; 3],
 ) -> Result<(), FlashFilterError> {
     params.check(inputs)?;
+    check_output(params, level, &out)?;
+    tiled::filter(params, inputs, None, level, tiled::TILE, out);
+    Ok(())
+}
+
+fn check_output(params: &FlashParams, level: Level, out: &[&mut [f32]; 3]) -> Result<(), FlashFilterError> {
     if !level.is_available() {
         return Err(FlashFilterError::LevelUnavailable { level });
     }
     let expected = params.width * params.height;
-    for (plane, values) in ["output 0", "output 1", "output 2"].into_iter().zip(&out) {
+    for (plane, values) in ["output 0", "output 1", "output 2"].into_iter().zip(out) {
         if values.len() != expected {
             return Err(FlashFilterError::PlaneLength { plane, expected, actual: values.len() });
         }
     }
-    tiled::filter(params, inputs, level, tiled::TILE, out);
     Ok(())
 }

@@ -4,11 +4,11 @@
 //! very edge of the interval is judged alike; all else is in the precision that the name says.
 
 use super::members::Tests;
-use super::{FlashFilterError, FlashInputs, FlashParams};
+use super::{Carried, Filtered, FlashFilterError, FlashInputs, FlashParams};
 use crate::mirror::mirror;
 
 macro_rules! naive_twin {
-    ($real:ident, $weights:ident, $(#[$doc:meta])* $filter:ident) => {
+    ($real:ident, $weights:ident, $sums:ident, $(#[$doc:meta])* $filter:ident) => {
         /// Weights of neighbours, whether or not they belong to the set.
         #[derive(Debug)]
         pub(super) struct $weights<'a> {
@@ -52,8 +52,9 @@ macro_rules! naive_twin {
                     }
                 }
                 if distance.is_finite() {
-                    let range = guide.inv_two_sigma_r2[py as usize * w + px as usize] as $real;
-                    (-offset * self.spatial - distance / 3.0 * range).exp()
+                    // 2σ_r² of the pair, the sum of its two values.
+                    let noise = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
+                    (-offset * self.spatial - distance / 3.0 / (noise(px, py) + noise(qx, qy))).exp()
                 } else {
                     // Overflow: nothing alike.
                     0.0
@@ -70,13 +71,24 @@ macro_rules! naive_twin {
             inputs: &FlashInputs<'_>,
         ) -> Result<[Vec<$real>; 3], FlashFilterError> {
             params.check(inputs)?;
+            Ok($sums(params, inputs, None).image)
+        }
+
+        /// The loop itself, on checked inputs.
+        fn $sums(
+            params: &FlashParams,
+            inputs: &FlashInputs<'_>,
+            carried: Option<&Carried<'_>>,
+        ) -> Filtered<$real> {
             let tests = Tests::new(inputs);
             let weights = $weights::new(params, inputs);
             let (w, h, r) = (params.width as isize, params.height as isize, params.window_radius as isize);
-            let mut out = [(); 3].map(|()| Vec::with_capacity(params.width * params.height));
+            let planes = || [(); 3].map(|()| Vec::with_capacity(params.width * params.height));
+            let mut out = Filtered { image: planes(), carried: planes() };
+            let (along, squared) = carried.map_or(([&[][..]; 3], false), Carried::parts);
             for (py, px) in (0..h).flat_map(|y| (0..w).map(move |x| (y, x))) {
                 let p = (py * w + px) as usize;
-                let (mut sum, mut total) = ([0.0 as $real; 3], [0.0 as $real; 3]);
+                let [mut sum, mut total, mut other] = [[0.0 as $real; 3]; 3];
                 for qy in (py - r).max(0)..=(py + r).min(h - 1) {
                     for qx in (px - r).max(0)..=(px + r).min(w - 1) {
                         let q = (qy * w + qx) as usize;
@@ -88,26 +100,46 @@ macro_rules! naive_twin {
                         for c in (0..3).filter(|&c| members[c]) {
                             sum[c] += weight * (inputs.source[c][q] as $real - inputs.source[c][p] as $real);
                             total[c] += weight;
+                            if carried.is_some() {
+                                other[c] += if squared { weight * weight } else { weight } * along[c][q] as $real;
+                            }
                         }
                     }
                 }
                 for c in 0..3 {
                     // The pixel itself has weight exp(0) = 1, so the sum of weights is at least 1.
-                    out[c].push(inputs.source[c][p] as $real + sum[c] / total[c]);
+                    out.image[c].push(inputs.source[c][p] as $real + sum[c] / total[c]);
+                    if carried.is_some() {
+                        out.carried[c].push(other[c] / if squared { total[c] * total[c] } else { total[c] });
+                    }
                 }
             }
-            Ok(out)
+            out
         }
     };
 }
 
 naive_twin! {
-    f64, WeightsF64,
+    f64, WeightsF64, sums_f64,
     /// The filter in double precision: the oracle.
     filter_f64
 }
 naive_twin! {
-    f32, WeightsF32,
+    f32, WeightsF32, sums_f32,
     /// The same loops in single precision: what a first implementation would be, and the baseline of speed ratios.
     filter_f32
+}
+
+/// [`super::filter_carrying`] in double precision: its oracle.
+///
+/// # Errors
+/// As [`super::filter_carrying`].
+pub fn filter_carrying_f64(
+    params: &FlashParams,
+    inputs: &FlashInputs<'_>,
+    carried: &Carried<'_>,
+) -> Result<Filtered<f64>, FlashFilterError> {
+    params.check(inputs)?;
+    params.check_carried(carried)?;
+    Ok(sums_f64(params, inputs, Some(carried)))
 }

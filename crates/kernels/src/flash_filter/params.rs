@@ -108,8 +108,37 @@ pub enum Membership<'a> {
 pub struct Guide<'a> {
     /// Three planes of finite values. Squared differences that overflow `f32` give weight 0.
     pub planes: [&'a [f32]; 3],
-    /// 1/(2σ_r²) at each centre pixel, finite and at least 0.
-    pub inv_two_sigma_r2: &'a [f32],
+    /// σ_r² that each pixel's own noise asks for, greater than 0. A pair of pixels takes the mean of its two values;
+    /// infinity switches the range weights of all pairs with that pixel off.
+    pub sigma_r2: &'a [f32],
+}
+
+/// Planes that are summed along with the source, over the same sets and with the same weights. Finite values.
+#[derive(Clone, Copy, Debug)]
+pub enum Carried<'a> {
+    /// v, for Σ w·v / Σ w: what the filter makes of another image.
+    Values([&'a [f32]; 3]),
+    /// v ≥ 0, for Σ w²·v / (Σ w)²: with v the variances of independent source values, the variance of their mean.
+    Variances([&'a [f32]; 3]),
+}
+
+impl<'a> Carried<'a> {
+    /// The planes, and whether the weights are squared.
+    pub(super) fn parts(&self) -> ([&'a [f32]; 3], bool) {
+        match *self {
+            Self::Values(planes) => (planes, false),
+            Self::Variances(planes) => (planes, true),
+        }
+    }
+}
+
+/// Result of a pass that carries planes along: three planes each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Filtered<T = f32> {
+    /// The filtered source.
+    pub image: [Vec<T>; 3],
+    /// What [`Carried`] asks for. A sum of variances that overflows is infinite.
+    pub carried: [Vec<T>; 3],
 }
 
 /// Input planes, each of width·height values in rows.
@@ -157,13 +186,23 @@ impl FlashParams {
             for (name, plane) in ["guide 0", "guide 1", "guide 2"].into_iter().zip(guide.planes) {
                 self.check_plane(name, plane, "any finite value", |v| v.is_finite())?;
             }
-            let range = |v: f32| (0.0..=f32::MAX).contains(&v);
-            self.check_plane(
-                "inv_two_sigma_r2",
-                guide.inv_two_sigma_r2,
-                "0 or any positive finite value",
-                range,
-            )?;
+            self.check_plane("sigma_r2", guide.sigma_r2, "greater than 0", |v| v > 0.0)?;
+        }
+        Ok(())
+    }
+
+    /// Checks planes that are carried along.
+    ///
+    /// # Errors
+    /// As [`FlashParams::check`].
+    pub fn check_carried(&self, carried: &Carried<'_>) -> Result<(), FlashFilterError> {
+        let (planes, variances) = carried.parts();
+        for (name, plane) in ["carried 0", "carried 1", "carried 2"].into_iter().zip(planes) {
+            if variances {
+                self.check_plane(name, plane, "finite and at least 0", |v| (0.0..=f32::MAX).contains(&v))?;
+            } else {
+                self.check_plane(name, plane, "any finite value", |v| v.is_finite())?;
+            }
         }
         Ok(())
     }

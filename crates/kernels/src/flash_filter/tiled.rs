@@ -4,7 +4,7 @@ use super::hot::{self, Block, JOINT, SEPARATE, SINGLE, TileView};
 use super::layout::{BLOCK, Layout};
 use super::members::{EVERYTHING, Tests, half_width};
 use super::params::MAX_PATCH_RADIUS;
-use super::{FlashInputs, FlashParams};
+use super::{Carried, FlashInputs, FlashParams};
 use crate::Level;
 use crate::grid::Grid;
 use crate::mirror::mirror;
@@ -29,19 +29,21 @@ struct Job<'a> {
     level: Level,
     rule: usize,
     taps: [f32; MAX_PATCH_RADIUS + 1],
-    /// Factor from 1/(2σ_r²) and unscaled patch sums to an exponent of 2.
+    carried: Option<&'a Carried<'a>>,
+    /// Factor from σ_r² to what unscaled patch sums are divided by for an exponent of 2.
     range: f64,
     /// Factor from squared offset to an exponent of 2.
     spatial: f64,
 }
 
-/// Filters checked inputs into planes of the right size.
-pub(super) fn filter(
+/// Filters checked inputs into planes of the right size: three, and three more if planes are carried along.
+pub(super) fn filter<'o>(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
+    carried: Option<&Carried<'_>>,
     level: Level,
     tile_size: (usize, usize),
-    out: [&mut [f32]; 3],
+    out: impl IntoIterator<Item = &'o mut [f32]>,
 ) {
     let tests = Tests::new(inputs);
     let rule = match &tests {
@@ -66,7 +68,9 @@ pub(super) fn filter(
         level,
         rule,
         taps,
-        range: -std::f64::consts::LOG2_E * center * center / 3.0,
+        carried,
+        // d² = g(0)²/3·(unscaled sum), and d²/(2σ²) with 2σ² the sum of the pair's values.
+        range: 3.0 * std::f64::consts::LN_2 / (center * center),
         spatial: -std::f64::consts::LOG2_E / (2.0 * sigma * sigma),
     };
     for_each_tile(
@@ -89,9 +93,9 @@ struct Scratch {
 
 impl Scratch {
     fn new(layout: &Layout) -> Self {
-        let planes = 4 * layout.source.plane
+        let planes = 8 * layout.source.plane
             + 3 * layout.guide.plane
-            + 10 * layout.pixel.plane
+            + 12 * layout.pixel.plane
             + BLOCK * layout.columns.plane;
         let memory = vec![0.0f32; planes + 16];
         // `align_offset` may give up and say usize::MAX; alignment is for speed only.
@@ -107,12 +111,15 @@ impl Job<'_> {
         let (source, memory) = memory.split_at_mut(4 * layout.source.plane);
         let (guide, memory) = memory.split_at_mut(3 * layout.guide.plane);
         let (half_width, memory) = memory.split_at_mut(3 * layout.pixel.plane);
-        let (factor, memory) = memory.split_at_mut(layout.pixel.plane);
-        let (sums, columns) = memory.split_at_mut(6 * layout.pixel.plane);
+        let (noise, memory) = memory.split_at_mut(layout.source.plane);
+        let (carried, memory) = memory.split_at_mut(3 * layout.source.plane);
+        let (sums, columns) = memory.split_at_mut(9 * layout.pixel.plane);
         let guided = self.inputs.guide.is_some();
         self.copy_source(tile, source);
         self.copy_guide(tile, guide);
-        self.fill_pixels(tile, half_width, factor);
+        self.copy_noise(tile, noise);
+        self.copy_carried(tile, carried);
+        self.fill_half_widths(tile, half_width);
         sums.fill(0.0);
         let mut view = TileView {
             layout,
@@ -120,7 +127,9 @@ impl Job<'_> {
             source,
             guide: if guided { guide } else { &[] },
             half_width,
-            factor: if guided { factor } else { &[] },
+            noise: if guided { noise } else { &[] },
+            carried: if self.carried.is_some() { carried } else { &[] },
+            squared: self.carried.is_some_and(|carried| carried.parts().1),
             sums,
             columns,
             taps: self.taps,
@@ -129,33 +138,55 @@ impl Job<'_> {
         self.finish(&view, tile, out);
     }
 
-    /// Copies the source and the tested plane with their surroundings, outside the image [`OUTSIDE`].
-    fn copy_source(&self, tile: Tile, to: &mut [f32]) {
+    /// Copies one plane with its surroundings on the source's grid, outside the image `outside`.
+    fn copy_plane(&self, tile: Tile, from: &[f32], to: &mut [f32], outside: f32) {
         let grid = &self.layout.source;
-        let mut copy = |plane: usize, from: &[f32]| {
-            let to = &mut to[plane * grid.plane..][..grid.rows * grid.pitch];
-            for (j, row) in to.chunks_exact_mut(grid.pitch).enumerate() {
-                let row = &mut row[..grid.columns];
-                let y = (tile.y + j).checked_sub(grid.above).filter(|&y| y < self.params.height);
-                let Some(y) = y else {
-                    row.fill(OUTSIDE);
-                    continue;
-                };
-                let from = &from[y * self.params.width..][..self.params.width];
-                // Columns of the image that the row shows, and where they start in it.
-                let first = tile.x.saturating_sub(grid.left);
-                let skip = grid.left.saturating_sub(tile.x);
-                let count = (from.len() - first).min(row.len() - skip);
-                row[..skip].fill(OUTSIDE);
-                row[skip..skip + count].copy_from_slice(&from[first..first + count]);
-                row[skip + count..].fill(OUTSIDE);
-            }
-        };
-        for (c, plane) in self.inputs.source.into_iter().enumerate() {
-            copy(c, plane);
+        for (j, row) in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch).enumerate() {
+            let row = &mut row[..grid.columns];
+            let y = (tile.y + j).checked_sub(grid.above).filter(|&y| y < self.params.height);
+            let Some(y) = y else {
+                row.fill(outside);
+                continue;
+            };
+            let from = &from[y * self.params.width..][..self.params.width];
+            // Columns of the image that the row shows, and where they start in it.
+            let first = tile.x.saturating_sub(grid.left);
+            let skip = grid.left.saturating_sub(tile.x);
+            let count = (from.len() - first).min(row.len() - skip);
+            row[..skip].fill(outside);
+            row[skip..skip + count].copy_from_slice(&from[first..first + count]);
+            row[skip + count..].fill(outside);
         }
-        if let (SINGLE, Tests::Shared(tests)) = (self.rule, &self.tests) {
-            copy(3, &tests[0].values);
+    }
+
+    /// Copies the source and the tested plane, outside the image [`OUTSIDE`].
+    fn copy_source(&self, tile: Tile, to: &mut [f32]) {
+        let mut planes = to.chunks_exact_mut(self.layout.source.plane);
+        for (plane, to) in self.inputs.source.into_iter().zip(&mut planes) {
+            self.copy_plane(tile, plane, to, OUTSIDE);
+        }
+        if let (SINGLE, Tests::Shared(tests), Some(to)) = (self.rule, &self.tests, planes.next()) {
+            self.copy_plane(tile, &tests[0].values, to, OUTSIDE);
+        }
+    }
+
+    /// Copies the guide's noise in the unit that patch sums are divided by. Pixels outside the image get a 1, as their
+    /// weight is 0 whatever it is.
+    fn copy_noise(&self, tile: Tile, to: &mut [f32]) {
+        let Some(guide) = self.inputs.guide else { return };
+        self.copy_plane(tile, guide.sigma_r2, to, 1.0);
+        for value in to {
+            // `range` is above 2: nothing positive becomes 0.
+            *value = (self.range * f64::from(*value)) as f32;
+        }
+    }
+
+    /// Copies carried planes, outside the image 0.
+    fn copy_carried(&self, tile: Tile, to: &mut [f32]) {
+        let Some(carried) = self.carried else { return };
+        let planes = to.chunks_exact_mut(self.layout.source.plane);
+        for (plane, to) in carried.parts().0.into_iter().zip(planes) {
+            self.copy_plane(tile, plane, to, 0.0);
         }
     }
 
@@ -183,8 +214,8 @@ impl Job<'_> {
         }
     }
 
-    /// Fills in what each pixel of the tile compares with and scales by.
-    fn fill_pixels(&self, tile: Tile, half_widths: &mut [f32], factor: &mut [f32]) {
+    /// Fills in what each pixel of the tile compares with.
+    fn fill_half_widths(&self, tile: Tile, half_widths: &mut [f32]) {
         let grid = &self.layout.pixel;
         let tests = match &self.tests {
             Tests::Shared(tests) => tests.as_slice(),
@@ -201,13 +232,6 @@ impl Job<'_> {
                 let (tolerance, center) = (&tolerance[first..], &test.values[first..]);
                 for ((value, &tolerance), &center) in row.iter_mut().zip(tolerance).zip(center) {
                     *value = half_width(tolerance, center);
-                }
-            }
-            if let Some(guide) = self.inputs.guide {
-                let row = &mut factor[j * grid.pitch..][..tile.width];
-                for (value, &scale) in row.iter_mut().zip(&guide.inv_two_sigma_r2[first..]) {
-                    // Finite, as |range| < 1, so that distance 0 gives exponent 0 whatever the scale.
-                    *value = (self.range * f64::from(scale)) as f32;
                 }
             }
         }
@@ -265,12 +289,20 @@ impl Job<'_> {
     /// Divides the sums and writes the tile's result.
     fn finish(&self, view: &TileView<'_>, tile: Tile, out: Vec<TileRows<'_>>) {
         let (source, pixel) = (&self.layout.source, &self.layout.pixel);
-        for (c, rows) in out.into_iter().enumerate() {
+        for (plane, rows) in out.into_iter().enumerate() {
+            let c = plane % 3;
+            let set = if self.rule == SEPARATE { c } else { 0 };
             for (j, row) in rows.into_iter().enumerate() {
                 let here = j * pixel.pitch;
-                let sums = &view.sums[c * pixel.plane + here..][..tile.width];
-                let set = if self.rule == SEPARATE { c } else { 0 };
                 let weights = &view.sums[(3 + set) * pixel.plane + here..][..tile.width];
+                if plane >= 3 {
+                    let sums = &view.sums[(6 + c) * pixel.plane + here..][..tile.width];
+                    for ((value, sum), weight) in row.iter_mut().zip(sums).zip(weights) {
+                        *value = if view.squared { sum / (weight * weight) } else { sum / weight };
+                    }
+                    continue;
+                }
+                let sums = &view.sums[c * pixel.plane + here..][..tile.width];
                 let center =
                     &view.source[c * source.plane + source.origin() + j * source.pitch..][..tile.width];
                 for (i, value) in row.iter_mut().enumerate() {

@@ -24,8 +24,9 @@ fn output_lies_in_the_claimed_interval_on_any_data_whatever() {
         }
         for guide in [GuideKind::Flash, GuideKind::Color, GuideKind::None] {
             for test in [TestKind::Joint, TestKind::PerChannel] {
-                for steps in [1, 2] {
-                    let params = Params { steps, guide, test, ..Params::default() };
+                let two = [SpreadKind::Least, SpreadKind::Raw].map(|spread| (2, spread));
+                for (steps, second_spread) in two.into_iter().chain([(1, SpreadKind::Least)]) {
+                    let params = Params { steps, guide, test, second_spread, ..Params::default() };
                     let method = VirtualFlash::new(params).unwrap();
                     let claim = method.card().claims.enclosure.remove(0);
                     let out = method.denoise(&Input::new(&f)).unwrap();

@@ -77,7 +77,9 @@ fn flash_edges_stop_what_the_test_lets_through() {
     let flash = Image::from_fn(40, 24, 3, |_, x, _| side(x, 0.2, 0.9));
     f.flash = Some(Flash::Ready(estimate(flash, Image::filled(40, 24, 3, 1e-5))));
     let with = run(Params::default(), &f).image;
-    let without = run(Params { guide: GuideKind::None, ..Params::default() }, &f).image;
+    // With the input's spread in both steps; a narrower one in step 2 already keeps the sides apart.
+    let without = Params { guide: GuideKind::None, second_spread: SpreadKind::Raw, ..Params::default() };
+    let without = run(without, &f).image;
     // Patches that straddle the edge are unlike all others, so a pixel next to it keeps its value as well.
     for x in 0..40 {
         assert!((with.get(0, x, 12) - mean.get(0, x, 12)).abs() < 1e-3, "column {x}");
@@ -100,27 +102,43 @@ fn two_steps_leave_less_noise_than_either_alone() {
 }
 
 #[test]
-fn every_spread_of_step_two_denoises_and_only_the_raw_one_claims_a_proven_bound() {
+fn every_spread_of_step_two_denoises_and_those_within_the_raw_one_claim_a_proven_bound() {
     let scene = gaussian_edge(0.8);
     let truth = scene.truth();
     let f = scene.render(16, 3);
     let error = |image: &Image| -> f64 {
         image.data().iter().zip(truth.mean().data()).map(|(d, m)| f64::from(d - m).powi(2)).sum()
     };
-    let mut images = Vec::new();
-    for second_spread in [SpreadKind::Raw, SpreadKind::Propagated, SpreadKind::Halves] {
+    let mut images: Vec<Image> = Vec::new();
+    for second_spread in SPREADS {
         let params = Params { second_spread, ..Params::default() };
         let card = VirtualFlash::new(params.clone()).unwrap().card();
         assert_eq!(card.needs.contains(&Need::ColorHalves), second_spread == SpreadKind::Halves);
         let proven = card.claims.error_bound.iter().filter(|c| c.proven).count();
-        assert_eq!(
-            (proven, card.claims.enclosure.len()),
-            if second_spread == SpreadKind::Raw { (1, 1) } else { (0, 0) }
-        );
-        images.push(run(params, &f).image);
-        assert!(error(images.last().unwrap()) < 0.5 * error(&f.color.mean), "{second_spread:?}");
+        let bounded = matches!(second_spread, SpreadKind::Least | SpreadKind::Raw);
+        assert_eq!((proven, card.claims.enclosure.len()), if bounded { (1, 1) } else { (0, 0) });
+        let image = run(params, &f).image;
+        assert!(error(&image) < 0.5 * error(&f.color.mean), "{second_spread:?}");
+        // Here, with alike noise everywhere, the propagated spread is the least.
+        let others = images.iter().skip(usize::from(second_spread == SpreadKind::Propagated));
+        assert!(others.into_iter().all(|other| *other != image), "{second_spread:?}");
+        images.push(image);
     }
-    assert!(images[0] != images[1] && images[0] != images[2] && images[1] != images[2]);
+}
+
+/// Variance of the first step's output as the second tests it.
+fn second_variance(f: &Frame, params: &Params) -> Image {
+    let tested = spread::tested_variance(f, params).unwrap();
+    let along = spread::Along::new(f, params, Some(&tested)).unwrap();
+    let method = VirtualFlash::new(params.clone()).unwrap();
+    let step = &params.steps().unwrap()[0];
+    let tolerance =
+        tolerance::Tolerance::new(params, Some(tested.clone().into_owned()), &f.samples, step.level);
+    let patch = noisefloor_kernels::flash_filter::PatchWeights::gaussian(2, 1.25).unwrap();
+    let guide = guide::Guide::new(f, params, &patch);
+    let inputs = method::inputs(&f.color.mean, guide.as_ref(), &tolerance);
+    let (_, sums) = method.step(f, step, &inputs, Some(&along)).unwrap();
+    along.variance(sums.unwrap(), params.second_spread, &f.samples)
 }
 
 #[test]
@@ -132,23 +150,47 @@ fn propagated_variance_is_that_of_a_plain_mean_where_all_weights_are_one() {
     let mut u = uniforms(9);
     let halves = [image(w, h, &mut u), image(w, h, &mut u)];
     f.color.halves = Some(halves.clone());
-    let params = Params { first_sigma_ratio: 1e3, guide: GuideKind::None, ..Params::default() };
-    let method = VirtualFlash::new(params.clone()).unwrap();
-    let step = params.steps().unwrap()[0];
-    let patch = noisefloor_kernels::flash_filter::PatchWeights::gaussian(2, 1.25).unwrap();
-    let variance = f.color.variance.as_ref().unwrap().mean_variance();
-    let tolerance = tolerance::Tolerance::new(method.params(), Some(variance), &f.samples, step.level);
-    let first =
-        spread::FirstStep { frame: &f, guide: None, patch: &patch, step: &step, tolerance: &tolerance };
-    let propagated = first.variance(SpreadKind::Propagated).unwrap();
-    assert!((propagated.get(1, 7, 7) - 0.01).abs() < 1e-6, "{}", propagated.get(1, 7, 7));
-    let mean =
-        |half: &Image| half.crop(4, 4, 7, 7).plane(2).iter().map(|&v| f64::from(v)).sum::<f64>() / 49.0;
-    let expected = (mean(&halves[0]) - mean(&halves[1])).powi(2) / 4.0;
-    let got = f64::from(first.variance(SpreadKind::Halves).unwrap().get(2, 7, 7));
-    assert!((got - expected).abs() < 1e-4 * expected, "{got} instead of {expected}");
-    // Near the corner the window is clipped to 4×4.
-    assert!((propagated.get(0, 0, 0) - 0.49 / 16.0).abs() < 1e-6);
+    let of = |second_spread, test| {
+        let flat = Params { first_sigma_ratio: 1e3, guide: GuideKind::None, ..Params::default() };
+        second_variance(&f, &Params { second_spread, test, ..flat })
+    };
+    for test in [TestKind::Joint, TestKind::PerChannel] {
+        for second_spread in [SpreadKind::Propagated, SpreadKind::Least] {
+            let variance = of(second_spread, test);
+            assert!((variance.get(1, 7, 7) - 0.01).abs() < 1e-6, "{}", variance.get(1, 7, 7));
+            // Near the corner the window is clipped to 4×4.
+            assert!((variance.get(0, 0, 0) - 0.49 / 16.0).abs() < 1e-6);
+        }
+        let mean = |half: &Image, c| {
+            half.crop(4, 4, 7, 7).plane(c).iter().map(|&v| f64::from(v)).sum::<f64>() / 49.0
+        };
+        let expected = (mean(&halves[0], 2) - mean(&halves[1], 2)).powi(2) / 4.0;
+        let got = f64::from(of(SpreadKind::Halves, test).get(2, 7, 7));
+        assert!((got - expected).abs() < 1e-3 * expected + 1e-9, "{got} instead of {expected}");
+    }
+    // Luminance has one plane; with equal deviations in all channels it has the same one.
+    let luminance = of(SpreadKind::Propagated, TestKind::Luminance);
+    assert_eq!(luminance.channels(), 1);
+    assert!((luminance.get(0, 7, 7) - 0.01).abs() < 1e-6);
+}
+
+#[test]
+fn the_least_spread_is_nowhere_above_the_raw_or_the_propagated_one() {
+    for seed in 0..3 {
+        let f = wild_frame(seed);
+        for test in [TestKind::Joint, TestKind::PerChannel, TestKind::Luminance] {
+            let of =
+                |second_spread| second_variance(&f, &Params { second_spread, test, ..Params::default() });
+            let (least, propagated) = (of(SpreadKind::Least), of(SpreadKind::Propagated));
+            let raw = spread::tested_variance(&f, &Params { test, ..Params::default() }).unwrap();
+            let mut taken = [0, 0];
+            for ((&least, &raw), &propagated) in least.data().iter().zip(raw.data()).zip(propagated.data()) {
+                assert_eq!(least, raw.min(propagated));
+                taken[usize::from(propagated < raw)] += 1;
+            }
+            assert!(taken.iter().all(|&n| n > 0), "both occur: {taken:?}");
+        }
+    }
 }
 
 #[test]
@@ -168,8 +210,8 @@ fn a_power_of_two_of_exposure_scales_the_output_exactly() {
         light: scaled(light),
         covariance: covariance.as_ref().map(|c| c.map(|v| v * k * k)),
     });
-    for second_spread in [SpreadKind::Raw, SpreadKind::Propagated, SpreadKind::Halves] {
-        for test in [TestKind::Joint, TestKind::PerChannel] {
+    for second_spread in SPREADS {
+        for test in [TestKind::Joint, TestKind::PerChannel, TestKind::Luminance] {
             let params = Params { second_spread, test, ..Params::default() };
             assert_eq!(run(params.clone(), &brighter).image, run(params, &f).image.map(|v| v * k));
         }
@@ -276,5 +318,6 @@ fn parameters_out_of_range_are_named() {
     assert_eq!(bad(|p| p.second_sigma_ratio = f64::NAN), "second_sigma_ratio");
     assert_eq!(bad(|p| p.patch_radius_px = 4), "patch_radius_px");
     assert_eq!(bad(|p| p.kappa = 0.0), "kappa");
+    assert_eq!(bad(|p| p.color_kappa = f64::NAN), "color_kappa");
     assert_eq!(bad(|p| p.luminance_clip_percentile = 0.0), "luminance_clip_percentile");
 }

@@ -1,12 +1,16 @@
 //! Tests of the flash filter: made-up images, and what must hold for any image.
 
 mod bits;
+mod carried;
 mod hard_cases;
 mod oracle;
 mod properties;
 mod sets;
 
-use super::{FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_into};
+use super::{
+    Carried, Filtered, FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_carrying_into,
+    filter_into,
+};
 use crate::Level;
 
 /// Repeatable random numbers (splitmix64).
@@ -51,11 +55,13 @@ pub(super) struct Case {
     pub source: [Vec<f32>; 3],
     pub half_width: [Vec<f32>; 3],
     pub guide: Option<([Vec<f32>; 3], Vec<f32>)>,
+    /// Variances, or values if the test wants them so.
+    pub carried: [Vec<f32>; 3],
 }
 
 impl Case {
-    /// Random planes: source and guide in [0, 1), half-widths in [0, 0.6), range factors in [0, 30), one pixel in
-    /// eight without any tolerance.
+    /// Random planes: source and guide in [0, 1), half-widths in [0, 0.6), 1/(2σ_r²) from 1 to 30, variances in
+    /// [0, 1), one pixel in eight without any tolerance.
     pub fn random(
         width: usize,
         height: usize,
@@ -80,8 +86,9 @@ impl Case {
                 .planes(n, |random| if random.uniform() < 0.125 { 0.0 } else { 0.6 * random.uniform() }),
             guide: Some((
                 random.planes(n, Random::uniform),
-                (0..n).map(|_| 30.0 * random.uniform()).collect(),
+                (0..n).map(|_| 0.5 / (1.0 + 29.0 * random.uniform())).collect(),
             )),
+            carried: random.planes(n, Random::uniform),
         }
     }
 
@@ -95,9 +102,9 @@ impl Case {
                 Rule::Luminance => Membership::Luminance(half_width[0]),
                 Rule::Off => Membership::Off,
             },
-            guide: self.guide.as_ref().map(|(planes, range)| Guide {
+            guide: self.guide.as_ref().map(|(planes, noise)| Guide {
                 planes: planes.each_ref().map(Vec::as_slice),
-                inv_two_sigma_r2: range,
+                sigma_r2: noise,
             }),
         }
     }
@@ -106,6 +113,20 @@ impl Case {
         let mut out = [(); 3].map(|()| vec![f32::NAN; self.params.width * self.params.height]);
         let [r, g, b] = &mut out;
         filter_into(&self.params, &self.inputs(), level, [r, g, b]).unwrap();
+        out
+    }
+
+    /// The planes that are carried along, with squared weights or plain ones.
+    pub fn carried(&self, variances: bool) -> Carried<'_> {
+        let planes = self.carried.each_ref().map(Vec::as_slice);
+        if variances { Carried::Variances(planes) } else { Carried::Values(planes) }
+    }
+
+    pub fn carrying_at(&self, level: Level, variances: bool) -> Filtered {
+        let planes = || [(); 3].map(|()| vec![f32::NAN; self.params.width * self.params.height]);
+        let mut out = Filtered { image: planes(), carried: planes() };
+        let into = [&mut out.image, &mut out.carried].map(|planes| planes.each_mut().map(Vec::as_mut_slice));
+        filter_carrying_into(&self.params, &self.inputs(), &self.carried(variances), level, into).unwrap();
         out
     }
 

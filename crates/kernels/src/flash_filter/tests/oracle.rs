@@ -72,11 +72,11 @@ fn agrees_at_extreme_scales() {
     // Everything is relative: scaling the image, its half-widths and the guide scales the result.
     for scale in [1e-8f32, 1e8] {
         let mut case = Case::random(33, 18, 3, 2, Rule::Joint);
-        let (guide, range) = case.guide.as_mut().unwrap();
+        let (guide, sigma_r2) = case.guide.as_mut().unwrap();
         for plane in case.source.iter_mut().chain(&mut case.half_width).chain(guide) {
             plane.iter_mut().for_each(|v| *v *= scale);
         }
-        range.iter_mut().for_each(|v| *v /= scale * scale);
+        sigma_r2.iter_mut().for_each(|v| *v *= scale * scale);
         let oracle = case.oracle();
         for level in levels() {
             let worst = worst(&case.filter_at(level), &oracle);

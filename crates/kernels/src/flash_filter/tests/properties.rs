@@ -148,7 +148,7 @@ fn a_noise_free_guide_admits_equal_patches_only() {
     let (w, h) = (64, 20);
     let mut case = Case::random(w, h, 4, 1, Rule::Off);
     let step: Vec<f32> = (0..w * h).map(|i| if i % w < 30 { 0.2 } else { 0.8 }).collect();
-    case.guide = Some(([step.clone(), step.clone(), step], vec![f32::MAX; w * h]));
+    case.guide = Some(([step.clone(), step.clone(), step], vec![f32::MIN_POSITIVE; w * h]));
     case.params.spatial_sigma = f32::INFINITY;
     case.source[0] = (0..w * h).map(|i| if i % w < 29 { 0.0 } else { 1.0 }).collect();
     let result = case.filter();
