@@ -23,12 +23,13 @@ fn settings(id: &str) -> Vec<Value> {
         "virtual-flash" => {
             all.extend(["color", "none"].map(|guide| json!({ "guide": guide })));
             all.extend(["per-channel", "luminance"].map(|test| json!({ "test": test, "guide": "none" })));
-            all.extend(["propagated", "halves"].map(|spread| json!({ "second_spread": spread })));
+            all.extend(["raw", "propagated", "halves"].map(|spread| json!({ "second_spread": spread })));
             all.extend([
                 json!({ "steps": 1 }),
                 json!({ "steps": 1, "guide": "color", "test": "luminance" }),
                 json!({ "second_spread": "halves", "test": "per-channel", "guide": "color" }),
                 json!({ "second_spread": "propagated", "test": "luminance", "guide": "none" }),
+                json!({ "second_spread": "halves", "test": "luminance", "guide": "color" }),
                 json!({ "homogeneous": false }),
                 json!({ "homogeneous": false, "guide": "none", "patch_radius_px": 0 }),
                 json!({ "patch_radius_px": 3, "second_window_radius_px": 32, "guide_floor": 0.0 }),

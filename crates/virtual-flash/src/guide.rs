@@ -13,7 +13,7 @@ use crate::{GuideKind, Params};
 pub(crate) struct Guide {
     /// F.
     pub image: Image,
-    /// σ_r² that each pixel's own noise asks for, greater than 0; a pair of pixels has the mean of its two.
+    /// σ_r² that each pixel's own noise asks for, greater than 0; a pair of pixels takes the smaller of its two.
     pub sigma_r2: Vec<f32>,
     /// Intensity I, if the flash came in parts.
     pub intensity: Option<f64>,

@@ -28,6 +28,20 @@ const STUDIES: &[BuiltinStudy] = &[
     BuiltinStudy { name: "vfi-table1", toml: include_str!("../../../../benchmarks/studies/vfi-table1.toml") },
     BuiltinStudy { name: "vfi-fig09", toml: include_str!("../../../../benchmarks/studies/vfi-fig09.toml") },
     BuiltinStudy {
+        name: "vfi-table1-high",
+        toml: include_str!("../../../../benchmarks/studies/vfi-table1-high.toml"),
+    },
+    BuiltinStudy {
+        name: "vfi-fig09-high",
+        toml: include_str!("../../../../benchmarks/studies/vfi-fig09-high.toml"),
+    },
+    BuiltinStudy {
+        name: "vfi-ablations",
+        toml: include_str!("../../../../benchmarks/studies/vfi-ablations.toml"),
+    },
+    BuiltinStudy { name: "vfi-guide", toml: include_str!("../../../../benchmarks/studies/vfi-guide.toml") },
+    BuiltinStudy { name: "vfi-kappa", toml: include_str!("../../../../benchmarks/studies/vfi-kappa.toml") },
+    BuiltinStudy {
         name: "vfi-check-640",
         toml: include_str!("../../../../benchmarks/studies/vfi-check-640.toml"),
     },

@@ -30,9 +30,9 @@ pub(super) struct TileView<'a> {
     pub guide: &'a [f32],
     /// Half-widths of the tests: one plane for [`SINGLE`], else three.
     pub half_width: &'a [f32],
-    /// Each pixel's share of what patch sums are divided by for an exponent of 2, on the source's grid and greater
-    /// than 0; empty without a guide.
-    pub noise: &'a [f32],
+    /// Each pixel's factor from patch sums to an exponent of 2, on the source's grid, finite and at most 0; the lower
+    /// of a pair's two counts. Empty without a guide.
+    pub factor: &'a [f32],
     /// Three planes that are summed along, on the source's grid; empty if there are none.
     pub carried: &'a [f32],
     /// Whether carried planes are summed with squared weights.
@@ -297,7 +297,7 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                     p[3] = at::<S>(tile.source, 3 * source.plane + center);
                     half_width[0] = at::<S>(tile.half_width, here);
                 }
-                let noise = if GUIDED { at::<S>(tile.noise, center) } else { lowest };
+                let factor = if GUIDED { at::<S>(tile.factor, center) } else { lowest };
                 let mut sum = [S::splat(0.0); 3];
                 let mut weights = [S::splat(0.0); 3];
                 for c in 0..3 {
@@ -311,8 +311,8 @@ unsafe fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const GUIDE
                     let (mut exponent, mut weight, mut scale) = (lowest, spatial, lowest);
                     if GUIDED {
                         let patch = patch_sum::<S, PATCH>(tile.columns, from + o * columns.plane, &taps);
-                        let pair = S::add(noise, at::<S>(tile.noise, there + o));
-                        exponent = S::sub(spatial, S::div(patch, pair));
+                        let factor = S::min(factor, at::<S>(tile.factor, there + o));
+                        exponent = S::fma(patch, factor, spatial);
                         (weight, scale) = S::exp2(exponent);
                     }
                     // False for weights below the normal range and for the NaN of an overflowed distance.

@@ -18,7 +18,7 @@ pub(super) struct Layout {
     pub reach: usize,
     /// Patch radius f.
     pub patch: usize,
-    /// Copies of the source, of the guide's noise and of carried planes: the tile and r pixels around it.
+    /// Copies of the source, of range factors and of carried planes: the tile and r pixels around it.
     pub source: Grid,
     /// Guide copies: the tile and r + f pixels around it.
     pub guide: Grid,

@@ -6,7 +6,7 @@
 //! ```text
 //! H(p)   = { q ∈ Ω_p : |x̄_q − x̄_p| ≤ τ_p + 4·eps·max(|x̄_p|, |x̄_q|) }          τ_p = t·s_p/√n_p
 //! d²     = Σ_j G(j) · ⅓ Σ_c (F_c(p+j) − F_c(q+j))²                              Σ_j G(j) = 1
-//! σ_r²   = (σ_r²(p) + σ_r²(q))/2                                                d² carries the noise of both pixels
+//! σ_r²   = min(σ_r²(p), σ_r²(q))
 //! w(p,q) = exp(−|p−q|²/(2σ_s²)) · exp(−d²/(2σ_r²))
 //! D_p    = x̄_p + Σ_{q∈H(p)} w(p,q)·(x̄_q − x̄_p) / Σ_{q∈H(p)} w(p,q)
 //! ```

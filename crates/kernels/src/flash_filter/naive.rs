@@ -52,9 +52,9 @@ macro_rules! naive_twin {
                     }
                 }
                 if distance.is_finite() {
-                    // 2σ_r² of the pair, the sum of its two values.
-                    let noise = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
-                    (-offset * self.spatial - distance / 3.0 / (noise(px, py) + noise(qx, qy))).exp()
+                    let sigma_r2 = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
+                    let pair = sigma_r2(px, py).min(sigma_r2(qx, qy));
+                    (-offset * self.spatial - distance / 3.0 * (0.5 / pair)).exp()
                 } else {
                     // Overflow: nothing alike.
                     0.0

@@ -108,8 +108,8 @@ pub enum Membership<'a> {
 pub struct Guide<'a> {
     /// Three planes of finite values. Squared differences that overflow `f32` give weight 0.
     pub planes: [&'a [f32]; 3],
-    /// σ_r² that each pixel's own noise asks for, greater than 0. A pair of pixels takes the mean of its two values;
-    /// infinity switches the range weights of all pairs with that pixel off.
+    /// σ_r² that each pixel's own noise asks for, greater than 0; infinity asks for no range weight. A pair of pixels
+    /// takes the smaller of its two values.
     pub sigma_r2: &'a [f32],
 }
 

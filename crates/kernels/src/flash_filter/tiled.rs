@@ -30,7 +30,7 @@ struct Job<'a> {
     rule: usize,
     taps: [f32; MAX_PATCH_RADIUS + 1],
     carried: Option<&'a Carried<'a>>,
-    /// Factor from σ_r² to what unscaled patch sums are divided by for an exponent of 2.
+    /// Over σ_r²: the factor from unscaled patch sums to an exponent of 2.
     range: f64,
     /// Factor from squared offset to an exponent of 2.
     spatial: f64,
@@ -69,8 +69,7 @@ pub(super) fn filter<'o>(
         rule,
         taps,
         carried,
-        // d² = g(0)²/3·(unscaled sum), and d²/(2σ²) with 2σ² the sum of the pair's values.
-        range: 3.0 * std::f64::consts::LN_2 / (center * center),
+        range: -std::f64::consts::LOG2_E * center * center / 6.0,
         spatial: -std::f64::consts::LOG2_E / (2.0 * sigma * sigma),
     };
     for_each_tile(
@@ -111,13 +110,13 @@ impl Job<'_> {
         let (source, memory) = memory.split_at_mut(4 * layout.source.plane);
         let (guide, memory) = memory.split_at_mut(3 * layout.guide.plane);
         let (half_width, memory) = memory.split_at_mut(3 * layout.pixel.plane);
-        let (noise, memory) = memory.split_at_mut(layout.source.plane);
+        let (factor, memory) = memory.split_at_mut(layout.source.plane);
         let (carried, memory) = memory.split_at_mut(3 * layout.source.plane);
         let (sums, columns) = memory.split_at_mut(9 * layout.pixel.plane);
         let guided = self.inputs.guide.is_some();
         self.copy_source(tile, source);
         self.copy_guide(tile, guide);
-        self.copy_noise(tile, noise);
+        self.copy_factor(tile, factor);
         self.copy_carried(tile, carried);
         self.fill_half_widths(tile, half_width);
         sums.fill(0.0);
@@ -127,7 +126,7 @@ impl Job<'_> {
             source,
             guide: if guided { guide } else { &[] },
             half_width,
-            noise: if guided { noise } else { &[] },
+            factor: if guided { factor } else { &[] },
             carried: if self.carried.is_some() { carried } else { &[] },
             squared: self.carried.is_some_and(|carried| carried.parts().1),
             sums,
@@ -170,14 +169,14 @@ impl Job<'_> {
         }
     }
 
-    /// Copies the guide's noise in the unit that patch sums are divided by. Pixels outside the image get a 1, as their
-    /// weight is 0 whatever it is.
-    fn copy_noise(&self, tile: Tile, to: &mut [f32]) {
+    /// Copies the factors that the guide's widths give. Pixels outside the image get that of 1, as their weight is 0
+    /// whatever it is.
+    fn copy_factor(&self, tile: Tile, to: &mut [f32]) {
         let Some(guide) = self.inputs.guide else { return };
         self.copy_plane(tile, guide.sigma_r2, to, 1.0);
         for value in to {
-            // `range` is above 2: nothing positive becomes 0.
-            *value = (self.range * f64::from(*value)) as f32;
+            // Finite, so that distance 0 gives exponent 0 whatever the width.
+            *value = (self.range / f64::from(*value)).max(f64::from(f32::MIN)) as f32;
         }
     }
 
