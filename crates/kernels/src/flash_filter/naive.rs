@@ -54,7 +54,7 @@ macro_rules! naive_twin {
                 if distance.is_finite() {
                     let sigma_r2 = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
                     let pair = sigma_r2(px, py).min(sigma_r2(qx, qy));
-                    (-offset * self.spatial - distance / 3.0 * (0.5 / pair)).exp()
+                    (-offset * self.spatial - distance / 3.0 / (2.0 * pair)).exp()
                 } else {
                     // Overflow: nothing alike.
                     0.0
