@@ -6,6 +6,10 @@ use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Sam
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 use serde_json::{Map, Value, json};
 
+mod common;
+
+use common::{scaled, set_variance};
+
 /// A method under test with what makes it.
 struct Subject {
     label: String,
@@ -37,8 +41,9 @@ fn settings(id: &str) -> Vec<Value> {
         }
         "geometric-corrected" => {
             all.extend(["sample-variance", "std-of-mean"].map(|spread| json!({ "spread": spread })));
-            all.push(json!({ "material_ids": false }));
-            all.push(json!({ "material_ids": false, "depth_test": false, "normal_test": false }));
+            all.push(json!({ "material": "albedo" }));
+            all.push(json!({ "material": "off", "depth_test": false, "normal_test": false }));
+            all.push(json!({ "floor_unit": "radiance", "luminance_floor": 0.01 }));
             all.extend(
                 ["updated-mean", "previous-mean", "population"].map(|form| json!({ "variance_form": form })),
             );
@@ -71,35 +76,6 @@ fn subjects() -> Vec<Subject> {
 fn frame(width: usize, height: usize, spp: u32) -> Frame {
     let law = SampleLaw::LogNormal { sigma: 0.7 };
     SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, width, height).unwrap().render(spp, 11)
-}
-
-fn set_variance(estimate: &mut Estimate, value: impl FnMut(f32) -> f32) {
-    estimate.variance =
-        estimate.variance.take().map(|v| Variance::of_mean(v.into_mean_variance().map(value)));
-}
-
-/// Multiplies radiance by `k` in every buffer that has its unit.
-fn scaled(f: &Frame, k: f32) -> Frame {
-    let estimate = |e: &Estimate| {
-        let mut out = Estimate {
-            mean: e.mean.map(|v| v * k),
-            variance: e.variance.clone(),
-            halves: e.halves.clone().map(|halves| halves.map(|half| half.map(|v| v * k))),
-        };
-        set_variance(&mut out, |v| v * k * k);
-        out
-    };
-    let mut out = f.clone();
-    out.color = estimate(&f.color);
-    out.flash = f.flash.as_ref().map(|flash| match flash {
-        Flash::Parts { base, light, covariance } => Flash::Parts {
-            base: estimate(base),
-            light: estimate(light),
-            covariance: covariance.as_ref().map(|c| c.map(|v| v * k * k)),
-        },
-        Flash::Ready(flash) => Flash::Ready(estimate(flash)),
-    });
-    out
 }
 
 /// The claimed enclosures hold: |D−x̄| ≤ Σ factor·t·s/√n, rounding allowed.
@@ -438,7 +414,12 @@ fn a_power_of_two_of_exposure_scales_the_output_exactly() {
         // Settings with a unit are scaled along, where they stay in range: (id, at this exposure, at the other).
         let mut pairs = vec![
             ("mc", json!({}), json!({})),
-            ("geometric-corrected", json!({}), json!({ "luminance_floor": 0.01 * k })),
+            ("geometric-corrected", json!({}), json!({})),
+            (
+                "geometric-corrected",
+                json!({ "floor_unit": "radiance", "luminance_floor": 0.01 }),
+                json!({ "floor_unit": "radiance", "luminance_floor": 0.01 * k }),
+            ),
             (
                 "geometric-corrected",
                 json!({ "spread": "std-of-mean" }),

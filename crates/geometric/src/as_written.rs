@@ -1,10 +1,12 @@
-use noisefloor_denoiser::{DenoiseError, Denoiser, Entry, Input, MethodCard, Output, StageTimer, build_with};
-use noisefloor_frame::{FeatureId, Frame};
+use noisefloor_denoiser::{
+    Alternative, DenoiseError, Denoiser, Entry, Input, MethodCard, Need, Output, StageTimer, build_with,
+};
+use noisefloor_frame::{FeatureId, Frame, Image};
 use rayon::prelude::*;
 
-use crate::corrected::{alternatives, describe, needs, no_variance, planar};
+use crate::corrected::{describe, needs, no_variance, untested};
 use crate::guides::Tests;
-use crate::{AsWrittenParams, CITATION, radius};
+use crate::{AsWrittenParams, CITATION, Material, radius};
 
 const ID: &str = "geometric-as-written";
 
@@ -44,9 +46,11 @@ impl Denoiser for GeometricAsWritten {
     fn card(&self) -> MethodCard {
         let mut card = MethodCard::new(ID, "Geometric, as written", CITATION);
         let p = &self.params;
-        card.needs =
-            needs(Tests { material_ids: p.material_ids, depth: p.depth_test, normal: p.normal_test });
-        card.alternatives = alternatives();
+        let material = if p.material_ids { Material::Ids } else { Material::Off };
+        card.needs = needs(Tests { material, depth: p.depth_test, normal: p.normal_test });
+        card.alternatives = untested();
+        let ids = Need::Feature(FeatureId::Material);
+        card.alternatives.insert(0, Alternative::new("material_ids", false, [ids]));
         card.notes.push("a fixture that keeps the slides' slips: no baseline, sets no axis".into());
         card.notes.push("undefined wherever the variance is zero".into());
         card
@@ -77,7 +81,8 @@ impl Denoiser for GeometricAsWritten {
             return Err(DenoiseError::Undefined { method: ID.into(), what, pixels: broken.count(), x, y });
         }
         let rows: Vec<Vec<_>> = rows.into_iter().map(|row| row.into_iter().flatten().collect()).collect();
-        let mut output = Output::from_image(planar(&rows, frame.width()));
+        let image = Image::from_fn(frame.width(), frame.height(), 3, |c, x, y| rows[y][x][c]);
+        let mut output = Output::from_image(image);
         timer.finish("filter");
         describe(&mut output, radii, input);
         output.stages = timer.into_stages();

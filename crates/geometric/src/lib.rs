@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod as_written;
+mod cone;
 mod corrected;
 mod guides;
 mod params;
@@ -14,7 +15,7 @@ use noisefloor_denoiser::Citation;
 
 pub use as_written::{AS_WRITTEN_ENTRY, GeometricAsWritten};
 pub use corrected::{CORRECTED_ENTRY, GeometricCorrected};
-pub use params::{AsWrittenParams, CorrectedParams, LARGEST_RADIUS_PX, Spread};
+pub use params::{AsWrittenParams, CorrectedParams, FloorUnit, LARGEST_RADIUS_PX, Material, Spread};
 pub use recurrence::Recurrence;
 
 /// The source work of both variants.

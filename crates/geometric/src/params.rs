@@ -19,6 +19,28 @@ pub enum Spread {
     Relative,
 }
 
+/// What tells one material from another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Material {
+    /// Equal material ids, as on the slides.
+    Ids,
+    /// Like albedo, for frames without ids.
+    Albedo,
+    /// Nothing: a lamp then bleeds over the surface that it is part of.
+    Off,
+}
+
+/// What the luminance floor of [`Spread::Relative`] is a multiple of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FloorUnit {
+    /// The median luminance of the frame's pixels that are not black: whatever the exposure.
+    Median,
+    /// Unit radiance: the result depends on the exposure.
+    Radiance,
+}
+
 /// Parameters of `geometric-corrected`. The defaults are ours where the slides give no value.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -32,12 +54,16 @@ pub struct CorrectedParams {
     /// s₀, pixels per unit of (relative) standard error; not used by `sample-variance`. Chosen by us: a relative
     /// standard error of 10 % gives a radius of 4 pixels.
     pub pixels_per_error: f64,
-    /// Added to the luminance under `relative`, in radiance, so that black pixels divide by it.
+    /// Added to the luminance under `relative`, so that black pixels divide by it; in units of `floor_unit`.
     pub luminance_floor: f64,
+    /// See [`FloorUnit`].
+    pub floor_unit: FloorUnit,
     /// Radius cap in pixels.
     pub radius_max_px: f64,
-    /// Whether a neighbour must have the same material id.
-    pub material_ids: bool,
+    /// What a neighbour of the same material has in common: see [`Material`].
+    pub material: Material,
+    /// T_a, largest difference of albedo in a channel, as a fraction of the largest channel of both pixels.
+    pub albedo_threshold: f64,
     /// Whether depths are compared.
     pub depth_test: bool,
     /// T_z, largest depth difference as a fraction of the larger depth.
@@ -55,9 +81,11 @@ impl Default for CorrectedParams {
             variance_form: Recurrence::Unbiased,
             multiplier: 2.0,
             pixels_per_error: 20.0,
-            luminance_floor: 0.01,
+            luminance_floor: 0.1,
+            floor_unit: FloorUnit::Median,
             radius_max_px: 16.0,
-            material_ids: true,
+            material: Material::Ids,
+            albedo_threshold: 0.1,
             depth_test: true,
             depth_threshold: 0.02,
             normal_test: true,
@@ -83,14 +111,24 @@ impl CorrectedParams {
         },
         ParamDoc {
             name: "luminance_floor",
-            range: "above 0, radiance",
-            about: "added to the luminance that relative divides by",
+            range: "above 0",
+            about: "added to the luminance that relative divides by, in units of floor_unit",
+        },
+        ParamDoc {
+            name: "floor_unit",
+            range: "median | radiance",
+            about: "the frame's median luminance, or radiance: then the result depends on exposure",
         },
         ParamDoc { name: "radius_max_px", range: "0 to 64 px", about: "R_max: cap of the kernel radius" },
         ParamDoc {
-            name: "material_ids",
-            range: "true | false",
-            about: "compare material ids; off for frames without them",
+            name: "material",
+            range: "ids | albedo | off",
+            about: "what tells materials apart: albedo for frames without ids; off lets lamps bleed",
+        },
+        ParamDoc {
+            name: "albedo_threshold",
+            range: "0 to 1",
+            about: "T_a: largest difference of albedo in a channel, as a fraction of the largest channel of both",
         },
         ParamDoc { name: "depth_test", range: "true | false", about: "compare depths" },
         ParamDoc {
@@ -112,6 +150,7 @@ impl CorrectedParams {
             ("pixels_per_error", (0.0..=10_000.0).contains(&self.pixels_per_error)),
             ("luminance_floor", self.luminance_floor > 0.0 && self.luminance_floor.is_finite()),
             ("radius_max_px", (0.0..=LARGEST_RADIUS_PX).contains(&self.radius_max_px)),
+            ("albedo_threshold", (0.0..=1.0).contains(&self.albedo_threshold)),
             ("depth_threshold", self.depth_threshold >= 0.0 && self.depth_threshold.is_finite()),
             ("normal_threshold", (-1.0..=1.0).contains(&self.normal_threshold)),
         ];

@@ -1,10 +1,12 @@
 //! Kernel radius per pixel from the variance of the mean.
 
 use noisefloor_frame::{Frame, Image, Variance, luminance};
+use rayon::prelude::*;
 
-use crate::{CorrectedParams, Spread, recurrence::Recurrence};
+use crate::{CorrectedParams, FloorUnit, Spread, recurrence::Recurrence};
 
 /// Trace over the channels of the variance of the mean, turned into the estimate that `form` stands for on average.
+#[derive(Clone)]
 struct Trace<'a> {
     frame: &'a Frame,
     variance: &'a Image,
@@ -35,22 +37,41 @@ impl<'a> Trace<'a> {
 
 /// R in [0, radius_max_px]; a NaN becomes 0. `None` if the frame carries no variance.
 pub(crate) fn corrected(frame: &Frame, params: &CorrectedParams) -> Option<Vec<f32>> {
-    let mut trace = Trace::new(frame, params.variance_form)?;
-    let mean = &frame.color.mean;
-    let radius = |pixel: usize| {
+    let trace = Trace::new(frame, params.variance_form)?;
+    let floor = match (params.spread, params.floor_unit) {
+        (Spread::Relative, FloorUnit::Median) => params.luminance_floor * median_luminance(&frame.color.mean),
+        _ => params.luminance_floor,
+    };
+    let radius = |trace: &mut Trace<'_>, pixel: usize| {
         let spread = match params.spread {
             Spread::SampleVariance => trace.of_sample(pixel),
             Spread::StdOfMean => params.pixels_per_error * trace.of_mean(pixel).sqrt(),
             Spread::Relative => {
-                let rgb = [0, 1, 2].map(|c| mean.plane(c)[pixel]);
                 // The floor is positive, so the divisor is; a negative luminance counts as black.
-                let level = f64::from(luminance(rgb)).max(0.0) + params.luminance_floor;
+                let level = f64::from(luminance_at(&frame.color.mean, pixel)).max(0.0) + floor;
                 params.pixels_per_error * trace.of_mean(pixel).sqrt() / level
             }
         };
         (params.multiplier * spread).max(0.0).min(params.radius_max_px) as f32
     };
-    Some((0..frame.pixels()).map(radius).collect())
+    let pixels = (0..frame.pixels()).into_par_iter().with_min_len(4096);
+    Some(pixels.map_with(trace, radius).collect())
+}
+
+fn luminance_at(mean: &Image, pixel: usize) -> f32 {
+    luminance([0, 1, 2].map(|c| mean.plane(c)[pixel]))
+}
+
+/// Median luminance of the pixels that are not black, the lower of the two in the middle: some pixel's own, so that it
+/// scales with the image exactly. The least positive number where all are black.
+fn median_luminance(mean: &Image) -> f64 {
+    let all = (0..mean.pixels()).map(|pixel| luminance_at(mean, pixel));
+    let mut lit: Vec<f32> = all.filter(|v| *v > 0.0 && v.is_finite()).collect();
+    if lit.is_empty() {
+        return f64::MIN_POSITIVE;
+    }
+    let middle = (lit.len() - 1) / 2;
+    f64::from(*lit.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
 
 /// R = multiplier·variance of one sample, capped. `None` if the frame carries no variance.

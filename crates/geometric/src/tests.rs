@@ -5,7 +5,7 @@ use crate::*;
 
 fn off() -> CorrectedParams {
     CorrectedParams {
-        material_ids: false,
+        material: Material::Off,
         depth_test: false,
         normal_test: false,
         ..CorrectedParams::default()
@@ -57,11 +57,22 @@ fn run(params: CorrectedParams, frame: &Frame) -> Image {
     GeometricCorrected::new(params).unwrap().denoise(&Input::new(frame)).unwrap().image
 }
 
+/// Equal up to the rounding of a weighted mean of equal values.
+#[track_caller]
+fn assert_unmixed(out: &Image, expected: &Image) {
+    for (i, (&value, &expected)) in out.data().iter().zip(expected.data()).enumerate() {
+        assert!(
+            (value - expected).abs() <= 4.0 * f32::EPSILON * expected.abs(),
+            "{i}: {value}, not {expected}"
+        );
+    }
+}
+
 #[test]
 fn constant_image_is_unchanged() {
     let constant = Image::filled(21, 17, 3, 0.7);
     let f = frame(constant.clone(), 0.3);
-    assert_eq!(run(fixed_radius(7.3), &f), constant);
+    assert_unmixed(&run(fixed_radius(7.3), &f), &constant);
 }
 
 #[test]
@@ -109,17 +120,14 @@ fn an_id_change_a_depth_step_or_a_turned_normal_stops_all_exchange() {
     assert_ne!(run(fixed_radius(6.0), &base), halves, "without features the step is blurred");
 
     let ids = with(base.clone(), FeatureId::Material, 1, |_, x| if left(x) { 3.0 } else { 4.0 });
-    assert_eq!(run(CorrectedParams { material_ids: true, ..fixed_radius(6.0) }, &ids), halves);
+    assert_unmixed(&run(CorrectedParams { material: Material::Ids, ..fixed_radius(6.0) }, &ids), &halves);
 
     let step = with(base.clone(), FeatureId::Depth, 1, |_, x| if left(x) { 1.0 } else { 1.03 });
-    assert_eq!(run(CorrectedParams { depth_test: true, ..fixed_radius(6.0) }, &step), halves);
+    assert_unmixed(&run(CorrectedParams { depth_test: true, ..fixed_radius(6.0) }, &step), &halves);
 
-    // Lengths other than 1 must not matter.
+    // Left normal (1,0,0)·0.3, right (0,1,1)·0.3: perpendicular. Lengths other than 1 must not matter.
     let turned = with(base, FeatureId::Normal, 3, |c, x| if left(x) == (c == 0) { 0.3 } else { 0.0 });
-    assert_eq!(run(CorrectedParams { normal_test: true, ..fixed_radius(6.0) }, &turned), {
-        // Left normal (1,0,0)·0.3, right (0,1,1)·0.3: perpendicular.
-        halves
-    });
+    assert_unmixed(&run(CorrectedParams { normal_test: true, ..fixed_radius(6.0) }, &turned), &halves);
 }
 
 #[test]
@@ -136,7 +144,7 @@ fn background_exchanges_with_background_whatever_its_depth_and_never_with_a_surf
     assert!(out.get(0, 5, 0) <= 3.0 && out.get(0, 6, 0) >= 9.0, "no exchange between sky and surface");
 
     // With ids: the sky's depths are never read, not even infinite ones.
-    let ids = CorrectedParams { material_ids: true, ..params };
+    let ids = CorrectedParams { material: Material::Ids, ..params };
     let sky = with(base, FeatureId::Material, 1, |_, x| if x < 6 { -1.0 } else { 7.0 });
     let wild = with(sky, FeatureId::Depth, 1, |_, x| [f32::INFINITY, 55.0, 1.0, 1.01][x / 3]);
     assert_eq!(run(ids, &wild), out);
@@ -151,7 +159,13 @@ fn the_radius_has_its_three_meanings() {
         ..frame(mean, 0.0004) // trace 0.0012
     };
     let radius = |spread| {
-        let params = CorrectedParams { spread, radius_max_px: 64.0, ..off() };
+        let params = CorrectedParams {
+            spread,
+            radius_max_px: 64.0,
+            luminance_floor: 0.01,
+            floor_unit: FloorUnit::Radiance,
+            ..off()
+        };
         f64::from(radius::corrected(&f, &params).unwrap()[0])
     };
     let root = 0.0012f64.sqrt();
@@ -173,12 +187,67 @@ fn relative_radius_ignores_the_exposure() {
     let factor = 1024.0;
     let mut brighter = f.clone();
     brighter.color.mean = f.color.mean.map(|v| v * factor);
-    brighter.color.variance =
-        f.color.variance.map(|v| Variance::of_mean(v.into_mean_variance().map(|v| v * factor * factor)));
-    // The floor is the only absolute number in it, so it is scaled along.
-    let params = CorrectedParams { luminance_floor: 0.01 * f64::from(factor), ..off() };
-    let expected = run(off(), &frame(f.color.mean.clone(), 0.002)).map(|v| v * factor);
-    assert_eq!(run(params, &brighter), expected);
+    brighter.color.variance = f
+        .color
+        .variance
+        .clone()
+        .map(|v| Variance::of_mean(v.into_mean_variance().map(|v| v * factor * factor)));
+    let expected = run(off(), &f).map(|v| v * factor);
+    assert_ne!(run(off(), &f), f.color.mean);
+    assert_eq!(run(off(), &brighter), expected);
+    // A floor in radiance is an absolute number: the result is the same only if it is scaled along.
+    let floor =
+        |floor: f64| CorrectedParams { luminance_floor: floor, floor_unit: FloorUnit::Radiance, ..off() };
+    let expected = run(floor(0.01), &f).map(|v| v * factor);
+    assert_eq!(run(floor(0.01 * f64::from(factor)), &brighter), expected);
+    assert_ne!(run(floor(0.01), &brighter), expected);
+}
+
+#[test]
+fn the_floor_is_a_share_of_the_median_of_what_is_lit() {
+    // Luminances 0, 0, 1, 2, 3, 400: the lower middle of the lit ones is 2.
+    let mean = Image::from_fn(6, 1, 3, |_, x, _| [0.0, 0.0, 1.0, 2.0, 3.0, 400.0][x]);
+    let params = CorrectedParams { radius_max_px: 64.0, luminance_floor: 0.5, ..off() };
+    let radii = radius::corrected(&frame(mean, 0.0012), &params).unwrap();
+    for (pixel, level) in [(0, 1.0), (2, 2.0), (5, 401.0)] {
+        let expected = 2.0 * 20.0 * (3.0f64 * 0.0012).sqrt() / level;
+        assert!((f64::from(radii[pixel]) / expected - 1.0).abs() < 1e-5, "{pixel}: {}", radii[pixel]);
+    }
+    let black = radius::corrected(&frame(Image::new(2, 1, 3), 0.0), &off()).unwrap();
+    assert_eq!(black, [0.0, 0.0], "nothing is lit and nothing is noisy");
+}
+
+#[test]
+fn albedo_stands_in_for_ids_and_bounds_a_lamp() {
+    // A lamp in a ceiling: same plane, same normal, another albedo.
+    let lamp = |x: usize| x >= 10;
+    let mean = Image::from_fn(20, 9, 3, |_, x, _| if lamp(x) { 17.0 } else { 0.2 });
+    let tinted = |lamp_albedo: f32| {
+        with(frame(mean.clone(), 1.0 / 3.0), FeatureId::Albedo, 3, move |c, x| match lamp(x) {
+            true => lamp_albedo,
+            false => [0.7, 0.71, 0.72][c],
+        })
+    };
+    let params = CorrectedParams { material: Material::Albedo, ..fixed_radius(6.0) };
+    for albedo in [0.0, 0.6, 1.0, 17.0] {
+        assert_unmixed(&run(params.clone(), &tinted(albedo)), &mean);
+    }
+    // Below a tenth: 0.65 beside 0.72 at most.
+    assert!(run(params, &tinted(0.655)).get(0, 9, 4) > 0.3);
+}
+
+#[test]
+fn without_ids_the_way_out_is_albedo_and_without_both_there_is_none() {
+    let f = frame(random_image(4, 4, 1), 0.1);
+    let f = with(with(f, FeatureId::Depth, 1, |_, _| 1.0), FeatureId::Normal, 3, |_, _| 1.0);
+    let refusal = |f: &Frame| GeometricCorrected::default().denoise(&Input::new(f)).unwrap_err().to_string();
+    assert_eq!(refusal(&f), "geometric-corrected needs feature `material`");
+    let with_albedo = with(f, FeatureId::Albedo, 3, |_, _| 0.5);
+    assert!(
+        refusal(&with_albedo).ends_with("it does without with material=albedo"),
+        "{}",
+        refusal(&with_albedo)
+    );
 }
 
 #[test]
@@ -363,6 +432,7 @@ fn parameters_out_of_range_are_named() {
     assert_eq!(bad(|p| p.multiplier = -1.0), "multiplier");
     assert_eq!(bad(|p| p.pixels_per_error = f64::NAN), "pixels_per_error");
     assert_eq!(bad(|p| p.luminance_floor = 0.0), "luminance_floor");
+    assert_eq!(bad(|p| p.albedo_threshold = 1.5), "albedo_threshold");
     assert_eq!(bad(|p| p.radius_max_px = 65.0), "radius_max_px");
     assert_eq!(bad(|p| p.normal_threshold = 1.1), "normal_threshold");
     let literal = AsWrittenParams { depth_threshold: -0.1, ..AsWrittenParams::default() };

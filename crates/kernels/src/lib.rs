@@ -15,6 +15,8 @@ mod mirror;
 pub mod nlm;
 mod simd;
 mod tiles;
+mod vectorised;
 
 pub use level::Level;
 pub use mirror::mirror;
+pub use vectorised::Vectorised;

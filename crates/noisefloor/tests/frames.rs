@@ -172,8 +172,8 @@ fn a_refusal_names_the_way_out() {
     assert!(told.contains("virtual flash image") && told.contains("or --set guide=color"), "{told}");
     done(&place.denoise("virtual-flash", &["--set", "guide=color"]));
     let told = refused(&place.denoise("guarded(geometric-corrected)", &[]));
-    assert!(told.contains("feature `material`, or --set material_ids=false"), "{told}");
-    done(&place.denoise("geometric-corrected", &["--set", "material_ids=false"]));
+    assert!(told.contains("feature `material`, or --set material=albedo"), "{told}");
+    done(&place.denoise("geometric-corrected", &["--set", "material=albedo"]));
 }
 
 #[test]

@@ -57,6 +57,10 @@ const STUDIES: &[BuiltinStudy] = &[
         name: "rdfc-spacetime",
         toml: include_str!("../../../../benchmarks/studies/rdfc-spacetime.toml"),
     },
+    BuiltinStudy {
+        name: "geometric-claim",
+        toml: include_str!("../../../../benchmarks/studies/geometric-claim.toml"),
+    },
 ];
 
 /// The studies that come with the program, in display order.
