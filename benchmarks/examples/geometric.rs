@@ -2,7 +2,7 @@
 //! [HEIGHT] [THREADS]`. Kernels of about 9 pixels, as noisy as radii from 16 samples are. The minimum of five runs.
 
 use noisefloor_benchmarks::{noise, surfaces};
-use noisefloor_denoiser::{Denoiser, Input, StageSeconds};
+use noisefloor_denoiser::{Denoiser, Input, Output};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
 use noisefloor_geometric::{CorrectedParams, GeometricCorrected, Material};
 use noisefloor_kernels::Level;
@@ -53,12 +53,12 @@ fn main() {
         let run = || {
             let start = std::time::Instant::now();
             let output = pool.install(|| method.denoise(&Input::new(&frame)).expect("a sound frame"));
-            (start.elapsed().as_secs_f64(), output.stages, output.figures)
+            (start.elapsed().as_secs_f64(), output)
         };
-        let runs: Vec<(f64, Vec<StageSeconds>, Vec<(String, f64)>)> = (0..5).map(|_| run()).collect();
-        let best = runs.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("five runs");
-        println!("{material:?}: {:.3} s, {} {:.2}", best.0, best.2[0].0, best.2[0].1);
-        for stage in &best.1 {
+        let runs: Vec<(f64, Output)> = (0..5).map(|_| run()).collect();
+        let (seconds, best) = runs.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("five runs");
+        println!("{material:?}: {seconds:.3} s, {} {:.2}", best.figures[0].0, best.figures[0].1);
+        for stage in &best.stages {
             println!("  {:<14}{:>8.3} s", stage.name, stage.seconds);
         }
     }
