@@ -41,7 +41,7 @@ fn settings(id: &str) -> Vec<Value> {
         }
         "geometric-corrected" => {
             all.extend(["sample-variance", "std-of-mean"].map(|spread| json!({ "spread": spread })));
-            all.push(json!({ "material": "albedo" }));
+            all.push(json!({ "material": "ids" }));
             all.push(json!({ "material": "off", "depth_test": false, "normal_test": false }));
             all.push(json!({ "floor_unit": "radiance", "luminance_floor": 0.01 }));
             all.extend(

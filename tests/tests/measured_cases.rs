@@ -24,21 +24,6 @@ const MOST_ENERGY: f64 = 1.02;
 /// Most that a power of two of exposure may change a method's output, relative to it.
 const MOST_CHANGE: f64 = 1e-6;
 
-/// What a method does not keep, with the reason.
-struct Exception {
-    /// Start of the ids that it is for.
-    ids: &'static str,
-    energy: bool,
-    exposure: bool,
-}
-
-const EXCEPTIONS: &[Exception] = &[
-    // The second pass divides by the variance of both pixels, so a bright pixel, whose variance is as large as itself, has a
-    // weight of about a half in every pixel of its window; the derivative falls back to fixed weights where the colour is
-    // above 1, and small variances drown in the 1e-10 of the distance's denominator. To be removed when that is mended.
-    Exception { ids: "rdfc", energy: true, exposure: true },
-];
-
 /// Settings that make a method depend on the exposure, by its own card.
 const SETTINGS: &[(&str, &str, &str)] = &[("geometric-corrected", "floor_unit", "radiance")];
 
@@ -97,7 +82,8 @@ fn largest_change(from: &Image, to: &Image, factor: f64) -> f64 {
 /// The figures of a method.
 struct Figures {
     label: String,
-    id: String,
+    /// Whether it depends on the exposure by its own card.
+    declared: bool,
     /// Of each bright sample: pixels changed by more than half; energy of the output over the input's, over the larger of
     /// the input's and the truth's.
     bright: Vec<(usize, f64, f64)>,
@@ -128,7 +114,7 @@ fn figures(label: &str, id: &str, method: &dyn Denoiser) -> Option<Figures> {
     };
     Some(Figures {
         label: label.to_owned(),
-        id: id.to_owned(),
+        declared: label != id,
         bright: BRIGHT.iter().map(bright).collect::<Option<_>>()?,
         energy: mean(&plain) / mean(&frame.color.mean),
         change: STOPS.iter().map(change).collect::<Option<_>>()?,
@@ -180,19 +166,14 @@ fn bright_samples_make_no_light_and_exposure_changes_nothing_but_where_declared(
     assert_eq!(plain.label, "mc");
     assert!(plain.bright.iter().all(|(changed, energy, _)| (*changed, *energy) == (1, 1.0)));
     for row in &all {
-        let declared = |of: fn(&Exception) -> bool| {
-            EXCEPTIONS.iter().any(|exception| row.id.starts_with(exception.ids) && of(exception))
-        };
         let most_energy = row.bright.iter().map(|(_, _, energy)| *energy).fold(0.0, f64::max);
         let most_change = row.change.iter().copied().fold(0.0, f64::max);
-        if !declared(|exception| exception.energy) {
-            assert!(most_energy <= MOST_ENERGY, "{}: energy {most_energy}", row.label);
-        }
-        if row.label == row.id && !declared(|exception| exception.exposure) {
-            assert!(most_change <= MOST_CHANGE, "{}: exposure changes {most_change}", row.label);
-        } else if row.label != row.id {
+        assert!(most_energy <= MOST_ENERGY, "{}: energy {most_energy}", row.label);
+        if row.declared {
             // A declared dependence that is gone is no longer to be declared.
             assert!(most_change > MOST_CHANGE, "{}: exposure changes nothing", row.label);
+        } else {
+            assert!(most_change <= MOST_CHANGE, "{}: exposure changes {most_change}", row.label);
         }
     }
 }

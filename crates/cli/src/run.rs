@@ -157,13 +157,12 @@ fn scene_rows() -> Vec<MethodRow> {
     .into()
 }
 
-/// Rows for a folder of somebody else's frames: no flash image, and albedo in place of material ids. Frames without
-/// albedo have no geometric row: one that tells no materials apart shows how a lamp bleeds, and nothing about the method.
+/// Rows for a folder of somebody else's frames: no flash image. On frames without albedo the geometric rows are skipped: one
+/// that tells no materials apart shows how a lamp bleeds, and nothing about the method.
 fn folder_rows() -> Vec<MethodRow> {
     let row = |id: &str| MethodRow::new(id);
     let color = |id: &str, label: &str| row(id).set("guide", "color").label(label);
     let none = |id: &str, label: &str| row(id).set("guide", "none").label(label);
-    let albedo = |id: &str, label: &str| row(id).set("material", "albedo").label(label);
     vec![
         row("mc"),
         row("virtual-flash"),
@@ -172,7 +171,7 @@ fn folder_rows() -> Vec<MethodRow> {
         none("virtual-flash", "virtual-flash guide=none"),
         none("guarded(virtual-flash)", "guarded(virtual-flash) guide=none"),
         row("rdfc"),
-        albedo("geometric-corrected", "geometric-corrected material=albedo"),
-        albedo("guarded(geometric-corrected)", "guarded(geometric-corrected) material=albedo"),
+        row("geometric-corrected"),
+        row("guarded(geometric-corrected)"),
     ]
 }

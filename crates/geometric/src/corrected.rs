@@ -102,8 +102,13 @@ impl Denoiser for GeometricCorrected {
             },
         });
         match self.params.material {
-            Material::Ids => {}
-            Material::Albedo => card.notes.push("albedo is compared in place of material ids".into()),
+            Material::Ids => card.notes.push(
+                "a pixel that an edge crosses has one material id: the light of antialiased lamps bleeds"
+                    .into(),
+            ),
+            Material::Albedo => {
+                card.notes.push("albedo is compared in place of the slides' material ids".into())
+            }
             Material::Off => {
                 card.notes.push("materials are not told apart: lamps bleed over what is beside them".into())
             }

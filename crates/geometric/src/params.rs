@@ -23,9 +23,10 @@ pub enum Spread {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Material {
-    /// Equal material ids, as on the slides.
+    /// Equal material ids, as on the slides. A pixel that an edge crosses has the id of its first sample: averaged samples of
+    /// a lamp and its ceiling then spread over one of the two.
     Ids,
-    /// Like albedo, for frames without ids.
+    /// Like albedo. A pixel that an edge crosses is like neither side.
     Albedo,
     /// Nothing: a lamp then bleeds over the surface that it is part of.
     Off,
@@ -84,7 +85,7 @@ impl Default for CorrectedParams {
             luminance_floor: 0.1,
             floor_unit: FloorUnit::Median,
             radius_max_px: 16.0,
-            material: Material::Ids,
+            material: Material::Albedo,
             albedo_threshold: 0.1,
             depth_test: true,
             depth_threshold: 0.02,
@@ -123,7 +124,7 @@ impl CorrectedParams {
         ParamDoc {
             name: "material",
             range: "ids | albedo | off",
-            about: "what tells materials apart: albedo for frames without ids; off lets lamps bleed",
+            about: "what tells materials apart: ids as on the slides, or albedo; off lets lamps bleed",
         },
         ParamDoc {
             name: "albedo_threshold",

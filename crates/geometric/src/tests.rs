@@ -237,17 +237,24 @@ fn albedo_stands_in_for_ids_and_bounds_a_lamp() {
 }
 
 #[test]
-fn without_ids_the_way_out_is_albedo_and_without_both_there_is_none() {
-    let f = frame(random_image(4, 4, 1), 0.1);
-    let f = with(with(f, FeatureId::Depth, 1, |_, _| 1.0), FeatureId::Normal, 3, |_, _| 1.0);
-    let refusal = |f: &Frame| GeometricCorrected::default().denoise(&Input::new(f)).unwrap_err().to_string();
-    assert_eq!(refusal(&f), "geometric-corrected needs feature `material`");
-    let with_albedo = with(f, FeatureId::Albedo, 3, |_, _| 0.5);
-    assert!(
-        refusal(&with_albedo).ends_with("it does without with material=albedo"),
-        "{}",
-        refusal(&with_albedo)
-    );
+fn ids_and_albedo_are_each_others_way_out_and_without_both_there_is_none() {
+    let bare = frame(random_image(4, 4, 1), 0.1);
+    let bare = with(with(bare, FeatureId::Depth, 1, |_, _| 1.0), FeatureId::Normal, 3, |_, _| 1.0);
+    for (material, own, other, way) in [
+        (Material::Albedo, FeatureId::Albedo, FeatureId::Material, "material=ids"),
+        (Material::Ids, FeatureId::Material, FeatureId::Albedo, "material=albedo"),
+    ] {
+        let refusal = |f: &Frame| {
+            let params = CorrectedParams { material, ..CorrectedParams::default() };
+            let method = GeometricCorrected::new(params).unwrap();
+            method.denoise(&Input::new(f)).unwrap_err().to_string()
+        };
+        let needs = format!("geometric-corrected needs feature `{own}`");
+        assert_eq!(refusal(&bare), needs);
+        let channels = if other == FeatureId::Albedo { 3 } else { 1 };
+        let one = with(bare.clone(), other, channels, |_, _| 0.5);
+        assert_eq!(refusal(&one), format!("{needs}; it does without with {way}"));
+    }
 }
 
 #[test]
@@ -405,14 +412,17 @@ fn missing_inputs_are_named_before_any_work() {
         Samples::uniform(1),
         Sampling::Independent,
     );
-    let all = vec![
-        Need::ColorVariance,
-        Need::Samples(2),
-        Need::Feature(FeatureId::Material),
-        Need::Feature(FeatureId::Depth),
-        Need::Feature(FeatureId::Normal),
-    ];
-    for method in [&GeometricCorrected::default() as &dyn Denoiser, &GeometricAsWritten::default()] {
+    for (method, material) in [
+        (&GeometricCorrected::default() as &dyn Denoiser, FeatureId::Albedo),
+        (&GeometricAsWritten::default(), FeatureId::Material),
+    ] {
+        let all = [
+            Need::ColorVariance,
+            Need::Samples(2),
+            Need::Feature(material),
+            Need::Feature(FeatureId::Depth),
+            Need::Feature(FeatureId::Normal),
+        ];
         match method.denoise(&Input::new(&f)) {
             Err(DenoiseError::MissingInputs { missing, .. }) => assert_eq!(missing, all),
             other => panic!("{other:?}"),
