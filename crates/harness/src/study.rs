@@ -267,7 +267,5 @@ mod tests {
         let replicates = Replicates { default: 8, above: vec![(256, 4), (1024, 2)] };
         let at: Vec<u32> = [4, 256, 257, 1024, 4096].map(|spp| replicates.at(spp)).to_vec();
         assert_eq!(at, [8, 8, 4, 4, 2]);
-        let study = Study::builtin("vfi-table1").unwrap_or_else(|e| panic!("{e}"));
-        assert_eq!((study.replicates.at(256), study.replicates.at(512)), (8, 4));
     }
 }
