@@ -197,6 +197,20 @@ impl Image {
     pub fn count_non_finite(&self) -> usize {
         self.data.iter().filter(|v| !v.is_finite()).count()
     }
+
+    /// Median [`luminance`] of the pixels where it is above 0, the lower of the two in the middle: some pixel's own, so that
+    /// it scales with the image exactly, and no pixel moves it by much, however bright. `None` where no pixel is lit. Of
+    /// an image without three channels their mean stands for the luminance.
+    #[must_use]
+    pub fn median_luminance(&self) -> Option<f32> {
+        let of = |p: usize| match self.channels {
+            3 => luminance([0, 1, 2].map(|c| self.plane(c)[p])),
+            channels => self.planes().map(|plane| plane[p]).sum::<f32>() / channels as f32,
+        };
+        let mut lit: Vec<f32> = (0..self.pixels()).map(of).filter(|v| *v > 0.0 && v.is_finite()).collect();
+        let middle = lit.len().checked_sub(1)? / 2;
+        Some(*lit.select_nth_unstable_by(middle, f32::total_cmp).1)
+    }
 }
 
 /// Rec. 709 luminance of linear RGB.
@@ -222,6 +236,20 @@ mod tests {
         assert!(matches!(Image::from_vec(2, 2, 1, vec![0.0; 3]), Err(FrameError::Length { got: 3, .. })));
         assert!(matches!(Image::from_vec(0, 2, 1, vec![]), Err(FrameError::Shape { .. })));
         assert!(matches!(Image::from_vec(usize::MAX, 2, 1, vec![]), Err(FrameError::Shape { .. })));
+    }
+
+    #[test]
+    fn median_luminance_is_that_of_a_lit_pixel_and_ignores_how_bright_the_brightest_is() {
+        let grey = |values: [f32; 6]| Image::from_fn(6, 1, 3, |_, x, _| values[x]);
+        let median = |values| grey(values).median_luminance();
+        // Of 1, 2, 3 and the brightest: the lower of the two in the middle.
+        for brightest in [4.0, 1e30] {
+            let found = median([0.0, 3.0, -5.0, 1.0, brightest, 2.0]).unwrap();
+            assert_eq!(found, luminance([2.0; 3]));
+        }
+        assert_eq!(median([f32::NAN, 0.0, 7.0, f32::INFINITY, -1.0, 0.0]), Some(luminance([7.0; 3])));
+        assert_eq!(median([0.0, -1.0, 0.0, f32::NAN, 0.0, 0.0]), None);
+        assert_eq!(Image::filled(2, 2, 1, 5.0).median_luminance(), Some(5.0));
     }
 
     #[test]

@@ -39,7 +39,11 @@ impl<'a> Trace<'a> {
 pub(crate) fn corrected(frame: &Frame, params: &CorrectedParams) -> Option<Vec<f32>> {
     let trace = Trace::new(frame, params.variance_form)?;
     let floor = match (params.spread, params.floor_unit) {
-        (Spread::Relative, FloorUnit::Median) => params.luminance_floor * median_luminance(&frame.color.mean),
+        (Spread::Relative, FloorUnit::Median) => {
+            // All black: any positive number, as no pixel has a spread either.
+            let typical = frame.color.mean.median_luminance().map_or(f64::MIN_POSITIVE, f64::from);
+            params.luminance_floor * typical
+        }
         _ => params.luminance_floor,
     };
     let radius = |trace: &mut Trace<'_>, pixel: usize| {
@@ -60,18 +64,6 @@ pub(crate) fn corrected(frame: &Frame, params: &CorrectedParams) -> Option<Vec<f
 
 fn luminance_at(mean: &Image, pixel: usize) -> f32 {
     luminance([0, 1, 2].map(|c| mean.plane(c)[pixel]))
-}
-
-/// Median luminance of the pixels that are not black, the lower of the two in the middle: some pixel's own, so that it
-/// scales with the image exactly. The least positive number where all are black.
-fn median_luminance(mean: &Image) -> f64 {
-    let all = (0..mean.pixels()).map(|pixel| luminance_at(mean, pixel));
-    let mut lit: Vec<f32> = all.filter(|v| *v > 0.0 && v.is_finite()).collect();
-    if lit.is_empty() {
-        return f64::MIN_POSITIVE;
-    }
-    let middle = (lit.len() - 1) / 2;
-    f64::from(*lit.select_nth_unstable_by(middle, f32::total_cmp).1)
 }
 
 /// R = multiplier·variance of one sample, capped. `None` if the frame carries no variance.

@@ -10,6 +10,8 @@
 
 pub mod flash_filter;
 mod grid;
+#[doc(hidden)]
+pub mod inside;
 mod level;
 mod mirror;
 pub mod nlm;

@@ -14,16 +14,3 @@ pub fn mirror(i: isize, n: usize) -> usize {
     let folded = i.rem_euclid(2 * last);
     folded.min(2 * last - folded) as usize
 }
-
-#[cfg(test)]
-mod tests {
-    use super::mirror;
-
-    #[test]
-    fn mirroring_reflects_as_often_as_needed() {
-        let at = |n| (-7..=8).map(|i| mirror(i, n)).collect::<Vec<_>>();
-        assert_eq!(at(1), [0; 16]);
-        assert_eq!(at(2), [1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0, 1, 0]);
-        assert_eq!(at(4), [1, 0, 1, 2, 3, 2, 1, 0, 1, 2, 3, 2, 1, 0, 1, 2]);
-    }
-}

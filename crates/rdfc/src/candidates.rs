@@ -2,9 +2,8 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
-use noisefloor_kernels::nlm::{NlmInputs, NlmParams, Pass, Perturbation, Planes, filter};
+use noisefloor_kernels::nlm::{NlmInputs, Pass, Perturbation, Planes, filter};
 
-use crate::exposure::typical_brightness;
 use crate::kernel;
 use crate::prepare::Prepared;
 use crate::selection::Choice;
@@ -14,7 +13,7 @@ use crate::variance::mean_of_halves;
 
 /// Step of the finite difference over the value.
 const STEP: f32 = 0.01;
-/// Values below this fraction of the image's typical brightness get the derivative for fixed weights.
+/// Values below this fraction of the image's median luminance get the derivative for fixed weights.
 const SMALL: f32 = 1e-6;
 
 /// What one candidate gives.
@@ -44,13 +43,7 @@ pub(crate) fn candidates(
 ) -> Result<Vec<Candidate>, DenoiseError> {
     let frame = target.frame;
     let (width, height) = (frame.width(), frame.height());
-    let params = NlmParams {
-        feature_k: settings.feature_k,
-        denominator: settings.denominator,
-        center: settings.center,
-        epsilon: target.epsilon,
-        ..NlmParams::new(width, height, settings.radius, settings.color_k)
-    };
+    let params = target.engine(settings, settings.radius, settings.color_k);
     let pass = |choice: &Choice| match choice {
         Choice::First => Pass { patch: Some(1), floor: FLOOR, derivative: true },
         Choice::Second => Pass { patch: Some(3), floor: FLOOR, derivative: true },
@@ -96,7 +89,7 @@ fn with_counts<'a>(prepared: &'a Prepared<'_>, counts: &'a Image) -> Planes<'a> 
 /// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is not positive
 /// or next to nothing.
 pub(crate) fn steps(color: &Image) -> Image {
-    let least = SMALL * typical_brightness(color);
+    let least = SMALL * color.median_luminance().unwrap_or(0.0);
     let mut out = color.map(|v| STEP * v);
     for p in 0..color.pixels() {
         let fine = |v: f32| v > 0.0 && v >= least;

@@ -21,9 +21,11 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
         Some(Choice::Second) => "SECOND candidate: colour, large patches",
         Some(Choice::Third) => "THIRD candidate: features alone",
     });
-    if params.profile == Profile::Authors {
-        name.push_str(", the authors' program");
-    }
+    name.push_str(match params.profile {
+        Profile::Paper => ", as printed",
+        Profile::Authors => ", the authors' program",
+        Profile::Best => "",
+    });
     let mut card = MethodCard::new(id, name, CITATION);
     card.needs = vec![Need::ColorVariance, Need::ColorHalves, Need::Samples(2)];
     for name in &params.features {

@@ -2,7 +2,7 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{MAX_VARIANCE, NlmInputs, NlmParams, Pass, filter};
+use noisefloor_kernels::nlm::{MAX_VARIANCE, NlmInputs, Pass, filter};
 
 use crate::candidates::Candidate;
 use crate::first_pass::{FirstPass, combined, filter_errors, unit_scale};
@@ -60,13 +60,7 @@ pub(crate) fn code(
 ) -> Result<Image, DenoiseError> {
     let estimate = relative(&candidate.sure, &candidate.mean).map(|v| v.max(0.0));
     let (width, height) = (estimate.width(), estimate.height());
-    let params = NlmParams {
-        feature_k: settings.feature_k,
-        denominator: settings.denominator,
-        center: settings.center,
-        epsilon: target.epsilon,
-        ..NlmParams::new(width, height, RADIUS, K)
-    };
+    let params = target.engine(settings, RADIUS, K);
     let scale = unit_scale(&estimate);
     let scaled = estimate.map(|v| v * scale);
     let mut frame = target.planes();

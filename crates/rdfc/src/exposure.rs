@@ -6,10 +6,10 @@ use noisefloor_kernels::nlm::MIN_EPSILON;
 
 /// Largest value that goes to the engine. Its square and that times 10⁶ are within the engine's range.
 const BRIGHT: f32 = 1e12;
-/// ε of the text, for frames of typical brightness ¼ to ½.
+/// ε of the text, for frames of a median luminance between ¼ and ½.
 const EPSILON: f64 = 1e-10;
 
-/// Target and neighbours times a power of two that takes the target's typical brightness to between ¼ and ½: what the
+/// Target and neighbours times a power of two that takes the target's median luminance to between ¼ and ½: what the
 /// method adds to variances and squared means (ε, 0.01) is meant for such values, and no result depends on the
 /// exposure that a frame came with. A power of two changes no digit.
 #[derive(Debug)]
@@ -29,11 +29,9 @@ impl Exposed {
         let images = frames().flat_map(|f| f.color.halves.iter().flatten().chain([&f.color.mean]));
         let finite = images.flat_map(|image| image.data().iter().map(|v| v.abs())).filter(|v| v.is_finite());
         let largest = finite.fold(0.0f32, f32::max);
-        let wanted = match typical_brightness(&input.target.color.mean) {
-            0.0 => 1.0,
-            // 2^(−2−⌊log₂⌋): exact, and within the range of the type for every positive value.
-            typical => (-2.0 - f64::from(typical).log2().floor()).exp2(),
-        };
+        // 2^(−2−⌊log₂⌋): exact, and within the range of the type for every positive value.
+        let power = |typical: f32| (-2.0 - f64::from(typical).log2().floor()).exp2();
+        let wanted = input.target.color.mean.median_luminance().map_or(1.0, power);
         let factor = if f64::from(largest) * wanted > f64::from(BRIGHT) {
             (-(f64::from(largest) / f64::from(BRIGHT)).log2().ceil()).exp2()
         } else {
@@ -88,21 +86,6 @@ impl Exposed {
             }
         }
     }
-}
-
-/// Median over the pixels that are not black of the mean magnitude of the channels; 0 if all are. No pixel moves it
-/// by much, however bright.
-pub(crate) fn typical_brightness(color: &Image) -> f32 {
-    let magnitude = |p: usize| color.planes().map(|plane| f64::from(plane[p].abs())).sum::<f64>();
-    let mut lit: Vec<f32> = (0..color.pixels())
-        .map(|p| (magnitude(p) / color.channels() as f64) as f32)
-        .filter(|v| *v > 0.0 && v.is_finite())
-        .collect();
-    if lit.is_empty() {
-        return 0.0;
-    }
-    let middle = lit.len() / 2;
-    *lit.select_nth_unstable_by(middle, f32::total_cmp).1
 }
 
 fn exposed(color: &Estimate, factor: f64) -> Estimate {

@@ -2,7 +2,7 @@
 
 use noisefloor_denoiser::{DenoiseError, StageTimer};
 use noisefloor_frame::{FeatureId, Frame, Image, UnitRange, Variance};
-use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, Planes};
+use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, NlmParams, Planes};
 
 use crate::features::{Feature, prefilter, scales};
 use crate::kernel;
@@ -66,6 +66,17 @@ impl<'a> Prepared<'a> {
             .collect::<Result<_, _>>()?;
         timer.finish("prefilter");
         Ok(Self { frame, halves, variance, features, epsilon })
+    }
+
+    /// Parameters of the engine for weights from the colour and the features.
+    pub fn engine(&self, settings: &Settings, radius: usize, k: f32) -> NlmParams {
+        NlmParams {
+            feature_k: settings.feature_k,
+            denominator: settings.denominator,
+            center: settings.center,
+            epsilon: self.epsilon,
+            ..NlmParams::new(self.frame.width(), self.frame.height(), radius, k)
+        }
     }
 
     /// Guide and features of the engine, and the halves to filter.

@@ -31,9 +31,7 @@ pub(crate) fn second_pass(
         feature_k: settings.feature_k * std::f32::consts::SQRT_2,
         denominator: Denominator::Center,
         guide_denominator: settings.second_denominator,
-        epsilon: target.epsilon,
-        center: settings.center,
-        ..NlmParams::new(width, height, radius, settings.color_k)
+        ..target.engine(settings, radius, settings.color_k)
     };
     let frame = Planes {
         guide: kernel::channels(mean, &variance),

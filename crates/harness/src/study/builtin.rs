@@ -54,6 +54,10 @@ const STUDIES: &[BuiltinStudy] = &[
     BuiltinStudy { name: "rdfc-fig08", toml: include_str!("../../../../benchmarks/studies/rdfc-fig08.toml") },
     BuiltinStudy { name: "rdfc-fig09", toml: include_str!("../../../../benchmarks/studies/rdfc-fig09.toml") },
     BuiltinStudy {
+        name: "rdfc-profiles",
+        toml: include_str!("../../../../benchmarks/studies/rdfc-profiles.toml"),
+    },
+    BuiltinStudy {
         name: "rdfc-spacetime",
         toml: include_str!("../../../../benchmarks/studies/rdfc-spacetime.toml"),
     },

@@ -23,9 +23,7 @@ mod layout;
 mod members;
 pub mod naive;
 mod params;
-#[cfg(test)]
-mod tests;
-mod tiled;
+pub(crate) mod tiled;
 
 pub use diagnostics::{HomogeneousWindow, homogeneous_counts, homogeneous_window};
 pub use error::FlashFilterError;
@@ -143,7 +141,7 @@ pub fn filter_into(
     Ok(())
 }
 
-fn check_output(params: &FlashParams, level: Level, out: &[&mut [f32]; 3]) -> Result<(), FlashFilterError> {
+pub(crate) fn check_output(params: &FlashParams, level: Level, out: &[&mut [f32]; 3]) -> Result<(), FlashFilterError> {
     if !level.is_available() {
         return Err(FlashFilterError::LevelUnavailable { level });
     }

@@ -37,7 +37,7 @@ struct Job<'a> {
 }
 
 /// Filters checked inputs into planes of the right size: three, and three more if planes are carried along.
-pub(super) fn filter<'o>(
+pub(crate) fn filter<'o>(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
     carried: Option<&Carried<'_>>,

@@ -202,12 +202,8 @@ unsafe fn sized<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block)
             [1] => all_columns::<S, G, 1, 1>(tile, block),
             [2] => all_columns::<S, G, 2, 2>(tile, block),
             [3] => all_columns::<S, G, 3, 3>(tile, block),
-            [1, _] => all_columns::<S, G, 1, 0>(tile, block),
-            [2, 0] => all_columns::<S, G, 2, 0>(tile, block),
-            [2, _] => all_columns::<S, G, 2, 1>(tile, block),
-            [_, 0] => all_columns::<S, G, 3, 0>(tile, block),
-            [_, 1] => all_columns::<S, G, 3, 1>(tile, block),
-            _ => all_columns::<S, G, 3, 2>(tile, block),
+            // No other pair: see `fits`.
+            _ => all_columns::<S, G, 3, 1>(tile, block),
         }
         accumulate::<S, G>(tile, block);
     }

@@ -25,9 +25,7 @@ mod hot;
 mod layout;
 pub mod naive;
 mod params;
-#[cfg(test)]
-mod tests;
-mod tiled;
+pub(crate) mod tiled;
 
 pub use error::NlmError;
 pub use params::{

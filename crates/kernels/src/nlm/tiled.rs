@@ -29,8 +29,9 @@ struct Job<'a> {
     group: usize,
 }
 
-/// Runs checked passes. They are split into sweeps of at most two patch radii and two τ.
-pub(super) fn filter(
+/// Runs checked passes. They are split into sweeps of at most two τ and one patch radius, or the radii 3 and 1: each
+/// pair of radii is compiled for itself, and this is the one that rousselle2013rdfc asks for.
+pub(crate) fn filter(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
@@ -52,7 +53,8 @@ pub(super) fn filter(
 
 /// Whether one sweep can serve these passes.
 fn fits(passes: &[Pass]) -> bool {
-    patches(passes).len() <= KINDS && floors(passes).len() <= KINDS
+    let patches = patches(passes);
+    (patches.len() <= 1 || patches == [3, 1]) && floors(passes).len() <= KINDS
 }
 
 /// Patch radii, the largest first.

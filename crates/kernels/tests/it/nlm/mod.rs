@@ -3,8 +3,10 @@ mod hard_cases;
 mod oracle;
 mod properties;
 
-use super::naive::filter_f64;
-use super::*;
+use noisefloor_kernels::Level;
+use noisefloor_kernels::inside::nlm_in_tiles;
+use noisefloor_kernels::nlm::naive::filter_f64;
+use noisefloor_kernels::nlm::*;
 
 /// Uniforms in [0, 1) by SplitMix64.
 struct Uniforms(u64);

@@ -1,8 +1,10 @@
 //! Input at the edge of what is allowed, and beyond.
 
-use super::super::{FlashFilterError, FlashParams, Membership, PatchWeights, filter, filter_into, naive};
 use super::{Case, RULES, Rule, levels};
-use crate::Level;
+use noisefloor_kernels::Level;
+use noisefloor_kernels::flash_filter::{
+    FlashFilterError, FlashParams, Membership, PatchWeights, filter, filter_into, naive,
+};
 
 #[test]
 fn values_up_to_1e30_give_finite_results() {
@@ -142,7 +144,10 @@ fn values_out_of_range_are_refused_with_their_place() {
 fn planes_of_the_wrong_length_are_refused() {
     let case = Case::random(8, 8, 2, 1, Rule::Luminance);
     let short = vec![1.0; 63];
-    let inputs = super::FlashInputs { membership: Membership::Luminance(&short), ..case.inputs() };
+    let inputs = noisefloor_kernels::flash_filter::FlashInputs {
+        membership: Membership::Luminance(&short),
+        ..case.inputs()
+    };
     let plane = "half-width of luminance";
     let expected = FlashFilterError::PlaneLength { plane, expected: 64, actual: 63 };
     assert_eq!(filter(&case.params, &inputs), Err(expected));

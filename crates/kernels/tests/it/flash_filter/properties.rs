@@ -33,7 +33,8 @@ fn zero_tolerance_averages_what_differs_by_rounding_only() {
     let mut case = Case::random(40, 20, 3, 1, Rule::Joint);
     case.half_width = [(); 3].map(|()| vec![0.0; 800]);
     case.source = [(); 3].map(|()| (0..800).map(|i| if i % 3 == 0 { low } else { high }).collect());
-    let counts = super::super::homogeneous_counts(&case.params, &case.inputs(), 0).unwrap();
+    let counts =
+        noisefloor_kernels::flash_filter::homogeneous_counts(&case.params, &case.inputs(), 0).unwrap();
     assert_eq!(counts[10 * 40 + 20], 49);
     assert!(case.filter().iter().flatten().all(|v| (low..=high).contains(v)));
 }

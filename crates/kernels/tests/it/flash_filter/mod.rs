@@ -7,14 +7,14 @@ mod oracle;
 mod properties;
 mod sets;
 
-use super::{
+use noisefloor_kernels::Level;
+use noisefloor_kernels::flash_filter::{
     Carried, Filtered, FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_carrying_into,
     filter_into,
 };
-use crate::Level;
 
 /// Repeatable random numbers (splitmix64).
-pub(super) struct Random(pub u64);
+pub struct Random(pub u64);
 
 impl Random {
     /// Uniform in [0, 1), 24 bits.
@@ -49,7 +49,7 @@ pub(super) const RULES: [Rule; 4] = [Rule::Joint, Rule::PerChannel, Rule::Lumina
 
 /// Parameters and planes that live together.
 #[derive(Clone, Debug)]
-pub(super) struct Case {
+pub struct Case {
     pub params: FlashParams,
     pub rule: Rule,
     pub source: [Vec<f32>; 3],
@@ -131,11 +131,11 @@ impl Case {
     }
 
     pub fn filter(&self) -> [Vec<f32>; 3] {
-        super::filter(&self.params, &self.inputs()).unwrap()
+        noisefloor_kernels::flash_filter::filter(&self.params, &self.inputs()).unwrap()
     }
 
     pub fn oracle(&self) -> [Vec<f64>; 3] {
-        super::naive::filter_f64(&self.params, &self.inputs()).unwrap()
+        noisefloor_kernels::flash_filter::naive::filter_f64(&self.params, &self.inputs()).unwrap()
     }
 }
 

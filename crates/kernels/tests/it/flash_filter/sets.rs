@@ -1,7 +1,9 @@
 //! The membership test and the views of the sets.
 
-use super::super::{FlashFilterError, half_width, homogeneous_counts, homogeneous_window};
 use super::{Case, RULES, Random, Rule};
+use noisefloor_kernels::flash_filter::{
+    FlashFilterError, half_width, homogeneous_counts, homogeneous_window,
+};
 
 #[test]
 fn the_half_width_is_the_symmetric_test_up_to_rounding() {

@@ -1,8 +1,8 @@
 //! The same bits for every instruction set, tile size and number of threads.
 
-use super::super::tiled;
 use super::{Case, RULES, Rule, levels};
-use crate::Level;
+use noisefloor_kernels::Level;
+use noisefloor_kernels::inside::flash_filter_in_tiles;
 
 fn bits(planes: &[Vec<f32>; 3]) -> Vec<u32> {
     planes.iter().flatten().map(|v| v.to_bits()).collect()
@@ -45,7 +45,7 @@ fn any_tile_size_gives_the_same_bits() {
             let mut out = [(); 3].map(|()| vec![0.0; 101 * 37]);
             let [r, g, b] = &mut out;
             let out_planes = [r, g, b].map(Vec::as_mut_slice);
-            tiled::filter(&case.params, &case.inputs(), None, level, tile, out_planes);
+            flash_filter_in_tiles(&case.params, &case.inputs(), level, tile, out_planes).unwrap();
             assert!(bits(&out) == usual, "{level}, tile {tile:?}");
         }
     }

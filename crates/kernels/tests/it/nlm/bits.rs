@@ -49,7 +49,7 @@ fn every_tile_size_gives_the_same_bits() {
     for case in cases() {
         let expected = bits(&case.fast());
         for tile in [(16, 1), (32, 64), (128, 7)] {
-            let got = tiled::filter(&case.params, &case.passes, &case.inputs(), Level::best(), tile);
+            let got = nlm_in_tiles(&case.params, &case.passes, &case.inputs(), Level::best(), tile).unwrap();
             assert!(bits(&got) == expected, "{tile:?}");
         }
     }

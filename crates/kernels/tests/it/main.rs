@@ -1,0 +1,7 @@
+//! What must hold of the kernels: equal bits everywhere, the `f64` twin as the oracle, limiting cases.
+
+mod exp2;
+mod flash_filter;
+mod mirror;
+mod nlm;
+mod tiles;
