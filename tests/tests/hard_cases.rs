@@ -423,7 +423,7 @@ fn a_power_of_two_of_exposure_scales_the_output_exactly() {
             (
                 "geometric-corrected",
                 json!({ "spread": "std-of-mean" }),
-                json!({ "spread": "std-of-mean", "pixels_per_error": 20.0 / k }),
+                json!({ "spread": "std-of-mean", "pixels_per_error": 5.0 / k }),
             ),
         ];
         pairs.retain(|(_, _, other)| other["pixels_per_error"].as_f64().is_none_or(|s0| s0 <= 1e4));

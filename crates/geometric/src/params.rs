@@ -52,8 +52,8 @@ pub struct CorrectedParams {
     pub variance_form: Recurrence,
     /// m, kernel radius per v̂; the slides say 2.0.
     pub multiplier: f64,
-    /// s₀, pixels per unit of (relative) standard error; not used by `sample-variance`. Chosen by us: a relative
-    /// standard error of 10 % gives a radius of 4 pixels.
+    /// s₀, pixels per unit of (relative) standard error; not used by `sample-variance`. Chosen by us, see
+    /// the crate's README: with m = 2, a relative standard error of 50 % gives a radius of 5 pixels, one of 10 % none.
     pub pixels_per_error: f64,
     /// Added to the luminance under `relative`, so that black pixels divide by it; in units of `floor_unit`.
     pub luminance_floor: f64,
@@ -81,7 +81,7 @@ impl Default for CorrectedParams {
             spread: Spread::Relative,
             variance_form: Recurrence::Unbiased,
             multiplier: 2.0,
-            pixels_per_error: 20.0,
+            pixels_per_error: 5.0,
             luminance_floor: 0.1,
             floor_unit: FloorUnit::Median,
             radius_max_px: 16.0,

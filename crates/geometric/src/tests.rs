@@ -171,8 +171,8 @@ fn the_radius_has_its_three_meanings() {
     let root = 0.0012f64.sqrt();
     for (spread, expected) in [
         (Spread::SampleVariance, 2.0 * n * 0.0012),
-        (Spread::StdOfMean, 2.0 * 20.0 * root),
-        (Spread::Relative, 2.0 * 20.0 * root / 0.5),
+        (Spread::StdOfMean, 2.0 * 5.0 * root),
+        (Spread::Relative, 2.0 * 5.0 * root / 0.5),
     ] {
         let got = radius(spread);
         assert!((got / expected - 1.0).abs() < 1e-5, "{spread:?}: {got} instead of {expected}");
@@ -210,7 +210,7 @@ fn the_floor_is_a_share_of_the_median_of_what_is_lit() {
     let params = CorrectedParams { radius_max_px: 64.0, luminance_floor: 0.5, ..off() };
     let radii = radius::corrected(&frame(mean, 0.0012), &params).unwrap();
     for (pixel, level) in [(0, 1.0), (2, 2.0), (5, 401.0)] {
-        let expected = 2.0 * 20.0 * (3.0f64 * 0.0012).sqrt() / level;
+        let expected = 2.0 * 5.0 * (3.0f64 * 0.0012).sqrt() / level;
         assert!((f64::from(radii[pixel]) / expected - 1.0).abs() < 1e-5, "{pixel}: {}", radii[pixel]);
     }
     let black = radius::corrected(&frame(Image::new(2, 1, 3), 0.0), &off()).unwrap();
