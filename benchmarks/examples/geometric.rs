@@ -48,7 +48,7 @@ fn main() {
     println!("{width}x{height} pixels, {} threads, {}", pool.current_num_threads(), Level::best());
     let frame = frame(width, height);
     for material in [Material::Ids, Material::Albedo] {
-        let params = CorrectedParams { material, ..CorrectedParams::default() };
+        let params = CorrectedParams { material, pixels_per_error: 20.0, ..CorrectedParams::default() };
         let method = GeometricCorrected::new(params).expect("in range");
         let run = || {
             let start = std::time::Instant::now();

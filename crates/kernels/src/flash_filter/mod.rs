@@ -141,7 +141,11 @@ pub fn filter_into(
     Ok(())
 }
 
-pub(crate) fn check_output(params: &FlashParams, level: Level, out: &[&mut [f32]; 3]) -> Result<(), FlashFilterError> {
+pub(crate) fn check_output(
+    params: &FlashParams,
+    level: Level,
+    out: &[&mut [f32]; 3],
+) -> Result<(), FlashFilterError> {
     if !level.is_available() {
         return Err(FlashFilterError::LevelUnavailable { level });
     }

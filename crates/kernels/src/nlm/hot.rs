@@ -92,8 +92,12 @@ pub(super) struct Constants {
     pub cancellation: f32,
     /// ε.
     pub epsilon: f32,
-    /// Whether Δ² is divided by twice the variance of the pair's first pixel, not by the sum of both.
-    pub twice_center: bool,
+    /// How often the variance of the pair's first pixel and that of its second stand in the denominator of Δ², beside
+    /// once that of the first: (0, 1), or (1, 0) for twice the first. Numbers, not a choice: a branch here would stand
+    /// in the innermost loop.
+    pub first_again: f32,
+    /// See `first_again`.
+    pub second: f32,
     /// Largest Δ².
     pub largest: f32,
     /// Whether Φ² is divided by the sum of both pixels' D.
@@ -223,29 +227,39 @@ unsafe fn distances<S: Simd, const N: usize>(tile: &TileView<'_>, here: usize, t
             let (value, variance) = (c * plane, (channels + c) * plane);
             let p = at::<S>(tile.here, value + here);
             let vp = at::<S>(tile.here, variance + here);
+            let base = base::<S>(vp, &constants);
             for o in 0..N {
                 let q = at::<S>(tile.there, value + there + o);
                 let vq = at::<S>(tile.there, variance + there + o);
                 let d = S::sub(p, q);
-                out[o] = S::add(out[o], square::<S>(d, vp, vq, &constants));
+                out[o] = S::add(out[o], square::<S>(d, vp, vq, base, &constants));
             }
         }
         out
     }
 }
 
-/// Δ² of a difference.
+/// The first pixel's part of a pair's denominator, ε included: at least ε.
 ///
 /// # Safety
 /// The instruction set is available.
 #[inline(always)]
-unsafe fn square<S: Simd>(d: S::F, vp: S::F, vq: S::F, constants: &Constants) -> S::F {
+unsafe fn base<S: Simd>(vp: S::F, constants: &Constants) -> S::F {
+    // SAFETY: as the caller vouches. Factors of 0 and 1 round nothing.
+    unsafe { S::fma(vp, S::splat(constants.first_again), S::add(vp, S::splat(constants.epsilon))) }
+}
+
+/// Δ² of a difference; `base` is that of the pair's first pixel.
+///
+/// # Safety
+/// The instruction set is available.
+#[inline(always)]
+unsafe fn square<S: Simd>(d: S::F, vp: S::F, vq: S::F, base: S::F, constants: &Constants) -> S::F {
     // SAFETY: as the caller vouches. The denominator is at least ε.
     unsafe {
         let noise = S::add(vp, S::min(vp, vq));
         let numerator = S::fma(S::splat(constants.cancellation), noise, S::mul(d, d));
-        let other = if constants.twice_center { vp } else { vq };
-        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), other);
+        let denominator = S::fma(vq, S::splat(constants.second), base);
         S::min(S::div(numerator, denominator), S::splat(constants.largest))
     }
 }
@@ -513,11 +527,16 @@ unsafe fn bends<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block,
             let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
             let p = at::<S>(tile.here, value + place.here);
             let vp = at::<S>(tile.here, variance + place.here);
+            let base = base::<S>(vp, &constants);
             let step = at::<S>(tile.pixel, layout.pixel_step(c) + place.pixel);
             for o in 0..G {
                 let q = beside::<S>(tile.there, value + place.there, o);
                 let vq = beside::<S>(tile.there, variance + place.there, o);
-                put::<S>(tile.local, local(OWN + c, o), bend::<S>(S::sub(p, q), step, vp, vq, &constants));
+                put::<S>(
+                    tile.local,
+                    local(OWN + c, o),
+                    bend::<S>(S::sub(p, q), step, vp, vq, base, &constants),
+                );
             }
             if center < G {
                 put::<S>(tile.local, local(OWN + c, center), S::splat(0.0));
@@ -561,7 +580,8 @@ unsafe fn exchanged<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Bl
                     let a = at::<S>(tile.here, value + other);
                     let va = at::<S>(tile.here, variance + other);
                     // The square of u(a) − (u(p) + δ) is that of (u(p) − u(a)) + δ; the centre of this pair is a.
-                    change = bend::<S>(S::sub(p, a), step, va, vp, &constants);
+                    let base = base::<S>(va, &constants);
+                    change = bend::<S>(S::sub(p, a), step, va, vp, base, &constants);
                 }
                 put::<S>(tile.local, local(EXCHANGED + c, o), change);
             }
@@ -569,17 +589,16 @@ unsafe fn exchanged<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Bl
     }
 }
 
-/// Δ² of d + step less that of d.
+/// Δ² of d + step less that of d; `base` is that of the pair's first pixel.
 ///
 /// # Safety
 /// The instruction set is available.
 #[inline(always)]
-unsafe fn bend<S: Simd>(d: S::F, step: S::F, vp: S::F, vq: S::F, constants: &Constants) -> S::F {
+unsafe fn bend<S: Simd>(d: S::F, step: S::F, vp: S::F, vq: S::F, base: S::F, constants: &Constants) -> S::F {
     // SAFETY: as the caller vouches. The denominator is at least ε.
     unsafe {
         let noise = S::mul(S::splat(constants.cancellation), S::add(vp, S::min(vp, vq)));
-        let other = if constants.twice_center { vp } else { vq };
-        let denominator = S::add(S::add(vp, S::splat(constants.epsilon)), other);
+        let denominator = S::fma(vq, S::splat(constants.second), base);
         let inverse = S::div(S::splat(1.0), denominator);
         let largest = S::splat(constants.largest);
         let moved = S::add(d, step);

@@ -98,6 +98,10 @@ fn sweep(
             HotPass::new(pass.patch, columns, floor, scale as f32, pass.derivative)
         })
         .collect();
+    let first_again = match params.guide_denominator {
+        GuideDenominator::Pair => 0.0,
+        GuideDenominator::TwiceCenter => 1.0,
+    };
     let job = Job {
         params,
         inputs,
@@ -105,7 +109,8 @@ fn sweep(
             // k is above 0.
             cancellation: -params.cancellation / (params.k * params.k),
             epsilon: params.epsilon,
-            twice_center: params.guide_denominator == GuideDenominator::TwiceCenter,
+            first_again,
+            second: 1.0 - first_again,
             largest: LARGEST_SQUARE,
             pair: params.denominator == Denominator::Pair,
             floors: [floors[0], *floors.last().unwrap_or(&floors[0])],
