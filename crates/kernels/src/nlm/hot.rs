@@ -72,10 +72,6 @@ pub(super) struct TileView<'a> {
     pub constants: Constants,
 }
 
-/// What every D of a pair's denominator is multiplied by, a power of two. D lies between the least τ of 10⁻⁶ and the
-/// largest spread of 10³⁰; in this unit the product of two sums of two D lies between 10⁻³⁶ and 4·10³⁶.
-pub(super) const PAIR_UNIT: f32 = 1.0 / (1u64 << 40) as f32;
-
 /// Vectors that the steps for one vector of pixels hand on, one for each offset of a block: exponents for both τ, then
 /// what moving each guide channel at p changes through p's own patch, then through q's. In memory and not in variables,
 /// because the compiler copies such large variables at every branch.
@@ -106,7 +102,7 @@ pub(super) struct Constants {
     pub largest: f32,
     /// Whether Φ² is divided by the sum of both pixels' D.
     pub pair: bool,
-    /// The two τ; for pairs in units of 1/[`PAIR_UNIT`].
+    /// The two τ.
     pub floors: [f32; KINDS],
     /// Number of different τ.
     pub floor_count: usize,
@@ -493,21 +489,13 @@ unsafe fn features<S: Simd, const G: usize, const FLOORS: usize, const PAIR: boo
                     let vq = beside::<S>(tile.area, area + area_kind, o);
                     // (f(p) − f(q))² − (v(p) + min(v(p), v(q)))
                     let excess = S::fma(d, d, S::sub(negative, S::min(vp, vq)));
-                    if PAIR {
-                        let dq = beside::<S>(tile.area, area + 2 * area_kind, o);
-                        let scaled = S::mul(excess, S::splat(constants.pair_scale / count as f32));
-                        let both = |i: usize| S::add(scales[i], S::max(dq, S::splat(constants.floors[i])));
-                        if FLOORS == 1 {
-                            sums[0][o] = S::add(sums[0][o], S::div(scaled, both(0)));
+                    for i in 0..FLOORS {
+                        if PAIR {
+                            let dq = beside::<S>(tile.area, area + 2 * area_kind, o);
+                            let both = S::add(scales[i], S::max(dq, S::splat(constants.floors[i])));
+                            let scaled = S::mul(excess, S::splat(constants.pair_scale / count as f32));
+                            sums[i][o] = S::add(sums[i][o], S::div(scaled, both));
                         } else {
-                            // Both reciprocals by one division, the slowest operation here; `PAIR_UNIT` keeps it in range.
-                            let (a, b) = (both(0), both(1));
-                            let inverse = S::div(S::splat(1.0), S::mul(a, b));
-                            sums[0][o] = S::fma(scaled, S::mul(inverse, b), sums[0][o]);
-                            sums[1][o] = S::fma(scaled, S::mul(inverse, a), sums[1][o]);
-                        }
-                    } else {
-                        for i in 0..FLOORS {
                             sums[i][o] = S::fma(excess, scales[i], sums[i][o]);
                         }
                     }

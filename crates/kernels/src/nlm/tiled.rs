@@ -1,6 +1,6 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{self, Block, Constants, HotPass, LOCAL, PAIR_UNIT, PENALTY, TileView};
+use super::hot::{self, Block, Constants, HotPass, LOCAL, PENALTY, TileView};
 use super::layout::{KINDS, LARGEST, Layout, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
 use super::naive::LARGEST as LARGEST_SQUARE;
 use super::params::{
@@ -98,8 +98,6 @@ fn sweep(
             HotPass::new(pass.patch, columns, floor, scale as f32, pass.derivative)
         })
         .collect();
-    let pair = params.denominator == Denominator::Pair;
-    let unit = if pair { PAIR_UNIT } else { 1.0 };
     let first_again = match params.guide_denominator {
         GuideDenominator::Pair => 0.0,
         GuideDenominator::TwiceCenter => 1.0,
@@ -114,13 +112,13 @@ fn sweep(
             first_again,
             second: 1.0 - first_again,
             largest: LARGEST_SQUARE,
-            pair,
-            floors: [floors[0], *floors.last().unwrap_or(&floors[0])].map(|floor| floor * unit),
+            pair: params.denominator == Denominator::Pair,
+            floors: [floors[0], *floors.last().unwrap_or(&floors[0])],
             floor_count: floors.len(),
             largest_center: params.center != Center::One,
             derivative: passes.iter().any(|pass| pass.derivative && pass.patch.is_some()),
             joint: inputs.perturbation.is_some_and(|p| p.rule == Rule::Joint),
-            pair_scale: feature_scale(params) as f32 * unit,
+            pair_scale: feature_scale(params) as f32,
         },
         group: group(2 * params.window_radius + 1),
         passes: hot,
@@ -246,7 +244,7 @@ impl Job<'_> {
             self.copy(tile, grid, channel.value, &mut to[layout.area_feature(0, c)..], 1.0);
             self.copy(tile, grid, channel.variance, &mut to[layout.area_feature(1, c)..], 1.0);
             if self.constants.pair {
-                self.copy(tile, grid, channel.spread, &mut to[layout.area_feature(2, c)..], PAIR_UNIT);
+                self.copy(tile, grid, channel.spread, &mut to[layout.area_feature(2, c)..], 1.0);
             }
         }
         for (k, target) in frame.targets.iter().enumerate() {
@@ -302,7 +300,7 @@ impl Job<'_> {
             for (i, floor) in self.constants.floors.into_iter().enumerate() {
                 let plane = layout.pixel_feature(2 + i, c);
                 if self.constants.pair {
-                    rows(plane, channel.spread, &|s| (s * PAIR_UNIT).max(floor));
+                    rows(plane, channel.spread, &|s| s.max(floor));
                 } else {
                     // τ is above 0.
                     let scale = scale / count as f64;
