@@ -65,6 +65,10 @@ const STUDIES: &[BuiltinStudy] = &[
         name: "geometric-claim",
         toml: include_str!("../../../../benchmarks/studies/geometric-claim.toml"),
     },
+    BuiltinStudy {
+        name: "geometric-size",
+        toml: include_str!("../../../../benchmarks/studies/geometric-size.toml"),
+    },
 ];
 
 /// The studies that come with the program, in display order.
