@@ -19,7 +19,8 @@ const SMALL: f32 = 1e-6;
 /// What one candidate gives.
 #[derive(Debug, Clone)]
 pub(crate) struct Candidate {
-    pub halves: [Image; 2],
+    /// Both halves, where [`Wanted::halves`] asks for them.
+    pub halves: Option<[Image; 2]>,
     pub mean: Image,
     /// dF/du per channel.
     pub derivative: Image,
@@ -27,10 +28,26 @@ pub(crate) struct Candidate {
     pub sure: Image,
     /// Σ w, one plane.
     pub weight_sum: Image,
-    /// Σ w·n, one plane: samples that contribute.
-    pub contributing: Image,
+    /// Σ w·n, one plane: samples that contribute, where [`Wanted::counts`] asks for them.
+    pub contributing: Option<Image>,
     /// w(p,p)/Σ w, one plane.
     pub center_share: Image,
+}
+
+impl Candidate {
+    /// Σ w·n, of candidates that were asked for it.
+    pub fn contributing(&self) -> &Image {
+        self.contributing.as_ref().expect("densities want counts")
+    }
+}
+
+/// What candidates are to filter beside what every use needs: each plane costs time in every pair of pixels.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Wanted {
+    /// The halves, for a second pass, in place of the mean.
+    pub halves: bool,
+    /// The samples, for a density.
+    pub counts: bool,
 }
 
 /// Runs the candidates of `which` on `target`, with windows that also take in `beside`.
@@ -39,6 +56,7 @@ pub(crate) fn candidates(
     target: &Prepared<'_>,
     beside: &[Prepared<'_>],
     which: &[Choice],
+    wanted: Wanted,
     settings: &Settings,
 ) -> Result<Vec<Candidate>, DenoiseError> {
     let frame = target.frame;
@@ -53,25 +71,32 @@ pub(crate) fn candidates(
     let steps = steps(&frame.color.mean);
     let counts: Vec<Image> = std::iter::once(target).chain(beside).map(|p| counts(p.frame)).collect();
     let inputs = NlmInputs {
-        frame: with_counts(target, &counts[0]),
-        neighbors: beside.iter().zip(&counts[1..]).map(|(p, counts)| with_counts(p, counts)).collect(),
+        frame: planes(target, &counts[0], wanted),
+        neighbors: beside.iter().zip(&counts[1..]).map(|(p, counts)| planes(p, counts, wanted)).collect(),
         perturbation: Some(Perturbation { step: [0, 1, 2].map(|c| steps.plane(c)), rule: settings.rule }),
     };
     let filtered = filter(&params, &passes, &inputs).map_err(|e| kernel::kernel_error(method, &e))?;
     Ok(filtered
         .into_iter()
         .map(|f| {
-            let halves = kernel::halves(&f.planes[..6], width, height);
-            let mean = mean_of_halves(&halves, &frame.samples);
+            let (color, counts) = f.planes.split_at(if wanted.halves { 6 } else { 3 });
+            let halves = wanted.halves.then(|| kernel::halves(color, width, height));
+            let mean = match &halves {
+                Some(halves) => mean_of_halves(halves, &frame.samples),
+                None => kernel::image(color, width, height),
+            };
             let derivative = plausible(kernel::image(&f.derivative, width, height), &f.center_share);
             let sure = sure(&mean, &frame.color.mean, &target.variance, &derivative);
-            let contributing = f.planes[6].iter().zip(&f.weight_sum).map(|(n, w)| n * w).collect();
+            let contributing = counts.first().map(|counts| {
+                let sums = counts.iter().zip(&f.weight_sum).map(|(n, w)| n * w).collect();
+                kernel::image(&[sums], width, height)
+            });
             Candidate {
                 sure,
                 halves,
                 mean,
                 derivative,
-                contributing: kernel::image(&[contributing], width, height),
+                contributing,
                 weight_sum: kernel::image(&[f.weight_sum], width, height),
                 center_share: kernel::image(&[f.center_share], width, height),
             }
@@ -79,11 +104,17 @@ pub(crate) fn candidates(
         .collect())
 }
 
-/// The frame's planes and its sample counts to filter.
-fn with_counts<'a>(prepared: &'a Prepared<'_>, counts: &'a Image) -> Planes<'a> {
-    let mut planes = prepared.planes();
-    planes.targets.push(counts.plane(0));
-    planes
+/// The frame's planes with those to filter.
+fn planes<'a>(prepared: &'a Prepared<'_>, counts: &'a Image, wanted: Wanted) -> Planes<'a> {
+    let mut targets = if wanted.halves {
+        kernel::half_planes(prepared.halves)
+    } else {
+        prepared.frame.color.mean.planes().collect()
+    };
+    if wanted.counts {
+        targets.push(counts.plane(0));
+    }
+    prepared.planes(targets)
 }
 
 /// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is not positive

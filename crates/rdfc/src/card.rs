@@ -3,9 +3,10 @@
 use noisefloor_denoiser::{Citation, MethodCard, Need};
 use noisefloor_frame::FeatureId;
 
-use crate::Params;
 use crate::params::Profile;
 use crate::selection::Choice;
+use crate::settings::Settings;
+use crate::{Params, SecondPass};
 
 /// The source work.
 pub const CITATION: Citation = Citation {
@@ -41,7 +42,7 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
          it is as good as measured"
             .into(),
     ];
-    if only.is_none() {
+    if only.is_none() && Settings::new(params).second_pass != SecondPass::Off {
         card.notes.push("the error estimate is that of the combination, before the second pass".into());
     }
     card

@@ -35,9 +35,9 @@ pub(crate) fn text(
     let (weights, samples) = match first {
         Some(first) => (
             combined(candidates, &first.weights, |c| &c.weight_sum),
-            combined(candidates, &first.weights, |c| &c.contributing),
+            combined(candidates, &first.weights, Candidate::contributing),
         ),
-        None => (alone.weight_sum.clone(), alone.contributing.clone()),
+        None => (alone.weight_sum.clone(), alone.contributing().clone()),
     };
     let (sure, mean) = first.map_or((&alone.sure, &alone.mean), |first| (&first.sure, &first.mean));
     let mut density = relative(sure, mean);
@@ -63,14 +63,13 @@ pub(crate) fn code(
     let params = target.engine(settings, RADIUS, K);
     let scale = unit_scale(&estimate);
     let scaled = estimate.map(|v| v * scale);
-    let mut frame = target.planes();
-    frame.targets = vec![scaled.plane(0)];
+    let frame = target.planes(vec![scaled.plane(0)]);
     let inputs = NlmInputs { frame, neighbors: Vec::new(), perturbation: None };
     let pass = Pass { patch: Some(PATCH), floor: FLOOR, derivative: false };
     let mut filtered = filter(&params, &[pass], &inputs).map_err(|e| kernel::kernel_error(method, &e))?;
     let mut density = kernel::image(&filtered.remove(0).planes, width, height); // one for each pass
     let support = candidate
-        .contributing
+        .contributing()
         .data()
         .iter()
         .zip(candidate.weight_sum.data())

@@ -10,7 +10,6 @@ use crate::prepare::Prepared;
 use crate::selection::select;
 use crate::settings::Settings;
 use crate::sure::{mean_of_channels, sum_of_channels};
-use crate::variance::mean_of_halves;
 
 /// k_c of the filters of error estimates and selection maps.
 const MAP_K: f32 = 1.0;
@@ -22,7 +21,8 @@ const MAP_RADIUS: usize = 5;
 /// The combination of the candidates and how it came about.
 #[derive(Debug, Clone)]
 pub(crate) struct FirstPass {
-    pub halves: [Image; 2],
+    /// Both halves, where the candidates have theirs.
+    pub halves: Option<[Image; 2]>,
     pub mean: Image,
     /// Filtered error estimates, one channel per candidate.
     pub errors: Image,
@@ -56,8 +56,10 @@ pub(crate) fn first_pass(
     let binary = binary_maps(candidates, &errors, settings);
     let maps = by_color(method, target, &binary, (settings.map_patch, MAP_RADIUS), settings.center)?;
     let weights = normalized(&maps);
-    let halves = [0, 1].map(|h| combined(candidates, &weights, |c| &c.halves[h]));
-    let mean = mean_of_halves(&halves, &target.frame.samples);
+    let halves = candidates.iter().all(|c| c.halves.is_some()).then(|| {
+        [0, 1].map(|h| combined(candidates, &weights, |c| &c.halves.as_ref().expect("all have theirs")[h]))
+    });
+    let mean = combined(candidates, &weights, |c| &c.mean);
     let sure = combined(candidates, &weights, |c| &c.sure);
     timer.finish("selection");
     Ok(FirstPass { halves, mean, errors, binary, weights, sure })

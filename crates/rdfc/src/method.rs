@@ -4,7 +4,7 @@ use noisefloor_denoiser::{
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::nlm::MAX_PIXELS;
 
-use crate::candidates::{Candidate, candidates};
+use crate::candidates::{Candidate, Wanted, candidates};
 use crate::density;
 use crate::diagnostics::{describe_choice, describe_inputs, figures};
 use crate::exposure::Exposed;
@@ -99,6 +99,7 @@ impl Rdfc {
         &self,
         input: &Input<'a>,
         epsilon: f32,
+        wanted: Wanted,
         timer: &mut StageTimer,
     ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
         check_size(self.id, input.target)?;
@@ -117,7 +118,7 @@ impl Rdfc {
         // A neighbour that lacks a feature of the target has no distances to it.
         let beside: Vec<Prepared<'_>> = beside.into_iter().filter(|frame| alike(&target, frame)).collect();
         let which = self.only.map_or_else(|| Choice::ALL.to_vec(), |choice| vec![choice]);
-        let candidates = candidates(self.id, &target, &beside, &which, &self.settings)?;
+        let candidates = candidates(self.id, &target, &beside, &which, wanted, &self.settings)?;
         timer.finish("candidates");
         Ok((target, candidates))
     }
@@ -125,7 +126,9 @@ impl Rdfc {
     /// [`Denoiser::denoise`] at the exposure for which ε is meant.
     fn filter(&self, input: &Input<'_>, epsilon: f32) -> Result<Output, DenoiseError> {
         let mut timer = StageTimer::start();
-        let (target, mut candidates) = self.start(input, epsilon, &mut timer)?;
+        let halves = self.only.is_none() && self.settings.second_pass != SecondPass::Off;
+        let wanted = Wanted { halves, counts: false };
+        let (target, mut candidates) = self.start(input, epsilon, wanted, &mut timer)?;
         let diagnostics = input.diagnostics != Diagnostics::Off;
         let mut output = if self.only.is_some() {
             let candidate = candidates.remove(0); // asked for one
@@ -134,17 +137,22 @@ impl Rdfc {
             output
         } else {
             let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
-            let halves = first.halves.clone().map(within_range);
             let mean = within_range(first.mean.clone());
-            let image = second_pass(self.id, &target, &halves, &mean, &self.settings)?;
-            timer.finish("second pass");
-            let mut output = Output::from_image(image);
+            let mut output = Output::from_image(match &first.halves {
+                None => mean,
+                Some(halves) => {
+                    let halves = halves.clone().map(within_range);
+                    let image = second_pass(self.id, &target, &halves, &mean, &self.settings)?;
+                    timer.finish("second pass");
+                    image
+                }
+            });
             figures(&mut output, &first);
             if diagnostics {
                 describe_choice(&mut output, &candidates, &first);
             }
             output.error_estimate = Some(first.sure);
-            if self.settings.second_pass != SecondPass::Off {
+            if first.halves.is_some() {
                 output.estimate_of = Some(("first pass".into(), first.mean));
             }
             output
@@ -208,10 +216,12 @@ impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
         input.check(&self.card())?;
         let input = &self.in_use(input);
+        let wanted = Wanted { halves: false, counts: true };
         // A density has no unit.
         let exposed = Exposed::new(input);
         let mut timer = StageTimer::start();
-        let (target, candidates) = self.start(&exposed.input(input), exposed.epsilon(), &mut timer)?;
+        let (target, candidates) =
+            self.start(&exposed.input(input), exposed.epsilon(), wanted, &mut timer)?;
         if self.settings.density != Density::Text {
             return density::code(self.id, &target, &candidates[0], &self.settings);
         }

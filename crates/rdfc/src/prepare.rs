@@ -79,12 +79,12 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Guide and features of the engine, and the halves to filter.
-    pub fn planes(&self) -> Planes<'_> {
+    /// Guide and features of the engine, for `targets` to filter.
+    pub fn planes<'b>(&'b self, targets: Vec<&'b [f32]>) -> Planes<'b> {
         Planes {
             guide: kernel::channels(&self.frame.color.mean, &self.variance),
             features: self.features.iter().map(Feature::channels).collect(),
-            targets: kernel::half_planes(self.halves),
+            targets,
         }
     }
 }

@@ -62,6 +62,8 @@ impl Choices {
     const BEST: Self = Self {
         gradient: Gradient::Central,
         derivative: DerivativeRule::Exact,
+        // It takes light from pixels that are brighter than their surroundings, and gains little elsewhere.
+        second_pass: SecondPass::Off,
         density: Density::Effective,
         ..Self::AUTHORS
     };

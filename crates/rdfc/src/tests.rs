@@ -28,7 +28,7 @@ fn profiles_decide_what_is_left_open() {
     );
     assert_eq!(program.second_denominator, GuideDenominator::TwiceCenter);
     let best = Settings::new(&Params::default());
-    assert_eq!(best.density, Density::Effective);
+    assert_eq!((best.density, best.second_pass), (Density::Effective, SecondPass::Off));
     assert_eq!(
         (best.rule, best.gradient, best.second_denominator),
         (Rule::Exact, Gradient::Central, GuideDenominator::TwiceCenter)

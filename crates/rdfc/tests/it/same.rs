@@ -107,6 +107,30 @@ fn choices_that_are_left_open_are_those_of_the_profile() {
 }
 
 #[test]
+fn without_a_second_pass_the_output_is_what_one_would_have_started_from() {
+    let noisy = frame(&step(30, 22), 0.1, 5);
+    for profile in [Profile::Paper, Profile::Authors, Profile::Best] {
+        let with = |pass| Rdfc::new(Params { second_pass: Some(pass), ..of(profile) }).unwrap();
+        let off = run(&with(SecondPass::Off), &noisy);
+        // The estimate is then of the output itself.
+        assert!(off.estimate_of.is_none());
+        for pass in [SecondPass::Text, SecondPass::Code] {
+            let output = run(&with(pass), &noisy);
+            let (_, first) = output.estimate_of.expect("an estimate of another image than the output");
+            // Halves are filtered for the pass, the mean without it: the same sums in another order.
+            let largest =
+                off.image.data().iter().zip(first.data()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            assert!(largest < 1e-5, "{profile:?}: {largest}");
+            assert_ne!(output.image, first);
+        }
+    }
+    assert_eq!(
+        run(&Rdfc::default(), &noisy).image,
+        run(&Rdfc::new(of(Profile::Best)).unwrap(), &noisy).image
+    );
+}
+
+#[test]
 fn sample_variances_are_scaled_for_low_discrepancy_frames_only() {
     let mut noisy = frame(&step(30, 22), 0.1, 6);
     let first = Rdfc::candidate(Choice::First, Params::default()).unwrap();
