@@ -30,7 +30,7 @@ impl Frame {
     ///   precision that the buffers show (half floats, rounded mantissas) or [`Fidelity::Lossy`] leaves. With
     ///   weighted pixel filters the shares are not n_A/n and n_B/n; what holds then is that the mean lies between the
     ///   halves, with shares that differ from pixel to pixel without a trend. That suffices where the film's filter
-    ///   is not known to be unweighted. Ids and normalised vectors are no averages and are not compared.
+    ///   is not known to be unweighted. Visibility, a quotient of two counts, must lie between its halves. Ids and normalised vectors are no averages and are not compared.
     /// * For independent samples the stated variance must agree with the halves: a finding, if not.
     /// * Zero variance where the halves differ is a finding. Neither is looked for in features of weighted samples.
     ///
@@ -46,11 +46,13 @@ impl Frame {
             let film = match name {
                 "color" if self.provenance.filter.is_some() => Film::Unweighted,
                 "color" => Film::Unknown,
+                // Rays that reached a light over rays traced.
+                "visibility" => Film::Quotient,
                 _ => Film::OfFeature,
             };
             let halves = average::check(name, estimate, &self.samples, film, fidelity)?;
             // Where samples that hit nothing do not count, nobody knows how many of a pixel's made up its variance.
-            if film == Film::OfFeature && halves == Halves::Weighted {
+            if matches!(film, Film::OfFeature | Film::Quotient) && halves == Halves::Weighted {
                 continue;
             }
             let subject = if name == "color" { String::new() } else { name.to_owned() };

@@ -13,6 +13,9 @@ pub(super) enum Film {
     Unknown,
     /// A feature: samples that hit nothing may not count, or count with another weight.
     OfFeature,
+    /// A quotient of two sums over samples, such as rays that reached a light over rays traced: whatever there is of them in
+    /// either half, the quotient of both together lies between those of the halves.
+    Quotient,
 }
 
 /// How halves relate to their mean.
@@ -75,6 +78,7 @@ pub(super) fn check(
         }
         (Fidelity::Rounded, Film::Unweighted) => false,
         (Fidelity::Rounded, Film::Unknown) => tally.weighted_film(),
+        (Fidelity::Rounded, Film::Quotient) => tally.lie_between(),
         (Fidelity::Rounded, Film::OfFeature) => share <= FEATURE || tally.weighted_film() || tally.gaps(),
     };
     if sound { Ok(Halves::Weighted) } else { Err(contradiction(&tally)) }
@@ -98,8 +102,15 @@ pub(super) fn check_parts(mean: &Image, parts: &[Image]) -> Result<(), FrameErro
         let average = sum / parts.len() as f64; // called with parts
         let scale = size / parts.len() as f64 + mean.abs();
         if average.is_finite() && mean.is_finite() {
-            let value =
-                Value { mean, average, residual: mean - average, scale, halves: [average; 2], share: 0.5 };
+            let value = Value {
+                mean,
+                average,
+                residual: mean - average,
+                scale,
+                halves: [average; 2],
+                share: 0.5,
+                one: 1.0,
+            };
             tally.add(&value, scale * relative + absolute, (i / pixels, i % pixels));
         }
     }
@@ -135,6 +146,8 @@ struct Value {
     halves: [f64; 2],
     /// n_A/n.
     share: f64,
+    /// What one sample has of the pixel, 1/n.
+    one: f64,
 }
 
 impl Value {
@@ -148,7 +161,7 @@ impl Value {
         let average = of_a + of_b;
         let scale = of_a.abs() + of_b.abs() + mean.abs();
         let halves = [f64::from(a), f64::from(b)];
-        let value = Self { mean, average, residual: mean - average, scale, halves, share };
+        let value = Self { mean, average, residual: mean - average, scale, halves, share, one: 1.0 / n };
         (n > 0.0 && value.residual.is_finite()).then_some(value)
     }
 }
@@ -182,10 +195,15 @@ impl Tally {
         }
     }
 
+    /// Whether the means lie between their halves.
+    fn lie_between(&self) -> bool {
+        self.between as f64 >= BETWEEN * self.disagreeing.len() as f64
+    }
+
     /// Whether weights that differ from sample to sample explain the disagreement: a mean between its halves, whose
     /// shares are right on the middle and err to both sides alike.
     fn weighted_film(&self) -> bool {
-        if (self.between as f64) < BETWEEN * self.disagreeing.len() as f64 {
+        if !self.lie_between() {
             return false;
         }
         let mut off: Vec<f64> = self
@@ -205,12 +223,13 @@ impl Tally {
     /// them than to the other on the whole, even where it is one of them because the other has no sample that counts.
     fn gaps(&self) -> bool {
         let nearer = |v: &Value| {
-            let at = (v.mean - v.halves[1]) / (v.halves[0] - v.halves[1]);
-            if at > v.share { 1.0 } else { -1.0 }
+            let off = (v.mean - v.halves[1]) / (v.halves[0] - v.halves[1]) - v.share;
+            // The odd sample of a pixel, which is half A's, tips no scale.
+            if off.abs() < v.one { 0.0 } else { off.signum() }
         };
         let sides: f64 = self.disagreeing.iter().map(nearer).sum();
         let count = self.disagreeing.len() as f64;
-        self.between as f64 >= BETWEEN * count && sides.abs() <= BALANCE * count.sqrt()
+        self.lie_between() && sides.abs() <= BALANCE * count.sqrt()
     }
 
     fn error(&self, layer: &str, estimate: &Estimate) -> FrameError {

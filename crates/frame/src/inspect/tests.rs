@@ -295,3 +295,59 @@ fn parts_must_average_to_the_mean() {
         Err(FrameError::Contradiction { made_of: "parts", .. })
     ));
 }
+
+/// Shadow rays that reached a light over rays traced: of `n(pixel)` samples the first ones, as `traced` says, hit something
+/// and trace one.
+fn visible(n: impl Fn(usize) -> u32, traced: &[u32], seed: u64) -> Frame {
+    let mut random = uniform(seed);
+    let pixels = SIZE.0 * SIZE.1;
+    let mut planes =
+        [Image::new(SIZE.0, SIZE.1, 1), Image::new(SIZE.0, SIZE.1, 1), Image::new(SIZE.0, SIZE.1, 1)];
+    for pixel in 0..pixels {
+        let mut rays = [[0.0f64; 2]; 2]; // reached and traced, of both halves
+        for k in 0..n(pixel) {
+            if traced.contains(&k) {
+                let half = &mut rays[(k % 2) as usize];
+                half[0] += f64::from(u8::from(random() < 0.5));
+                half[1] += 1.0;
+            }
+        }
+        let quotient =
+            |[reached, traced]: [f64; 2]| if traced > 0.0 { (reached / traced) as f32 } else { 0.0 };
+        let [a, b] = rays;
+        for (plane, value) in planes.iter_mut().zip([[a[0] + b[0], a[1] + b[1]], a, b].map(quotient)) {
+            plane.data_mut()[pixel] = value;
+        }
+    }
+    let [mean, a, b] = planes;
+    let counts: Vec<u32> = (0..pixels).map(&n).collect();
+    let half_a = counts.iter().map(|n| n.div_ceil(2)).collect();
+    let samples = Samples::per_pixel(counts).with_half_a(Counts::PerPixel(half_a));
+    let color = Image::filled(SIZE.0, SIZE.1, 3, 0.5);
+    let mut frame = Frame::from_color(Estimate::from_mean(color), samples, Sampling::LowDiscrepancy);
+    let estimate = Estimate { mean, variance: None, halves: Some([a, b]) };
+    frame.features.insert(FeatureId::Visibility, estimate);
+    frame
+}
+
+#[test]
+fn a_quotient_lies_between_its_halves_whatever_their_samples() {
+    for seed in 0..4 {
+        // One ray in half A, three in half B; and one in each, where half A has the odd sample.
+        for frame in [visible(|_| 8, &[0, 1, 3, 5], seed), visible(|_| 9, &[0, 1], seed)] {
+            assert_eq!(inspect(frame.clone()), Ok(Vec::new()));
+            let mut off = frame;
+            let visibility = off.features.get_mut(&FeatureId::Visibility).unwrap();
+            visibility.mean = visibility.mean.map(|v| v + 1.5);
+            assert!(contradicts(off).contains("visibility"));
+        }
+        // Of anything else the odd sample alone is no contradiction, halves that never weigh what they should are.
+        let as_caustics = |mut frame: Frame| {
+            let visibility = frame.features.remove(&FeatureId::Visibility).unwrap();
+            frame.features.insert(FeatureId::Caustics, visibility);
+            frame
+        };
+        assert_eq!(inspect(as_caustics(visible(|_| 9, &[0, 1], seed))), Ok(Vec::new()));
+        assert!(contradicts(as_caustics(visible(|_| 8, &[0, 1, 3, 5], seed))).contains("caustics"));
+    }
+}
