@@ -57,7 +57,7 @@ fn main() {
         };
         let runs: Vec<(f64, Output)> = (0..5).map(|_| run()).collect();
         let (seconds, best) = runs.iter().min_by(|a, b| a.0.total_cmp(&b.0)).expect("five runs");
-        println!("{material:?}: {seconds:.3} s, {} {:.2}", best.figures[0].0, best.figures[0].1);
+        println!("{material:?}: {seconds:.3} s, {} {:.2}", best.figures[0].name, best.figures[0].value);
         for stage in &best.stages {
             println!("  {:<14}{:>8.3} s", stage.name, stage.seconds);
         }

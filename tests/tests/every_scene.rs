@@ -26,7 +26,7 @@ fn every_scene_can_be_studied_by_its_name() {
         let folder = tempfile::tempdir().unwrap();
         let summary = run(&StudyRun {
             study: &study,
-            registry: &noisefloor::registry::registry(&[]),
+            registry: &noisefloor::registry::registry([]),
             out_dir: folder.path(),
             cache_dir: cache.path(),
             size: Some((20, 15)),

@@ -48,6 +48,9 @@ fn settings(id: &str) -> Vec<Value> {
                 ["updated-mean", "previous-mean", "population"].map(|form| json!({ "variance_form": form })),
             );
         }
+        // A guest like any other: the copy of its input. Nothing without a command.
+        "command" if cfg!(unix) => all = vec![json!({ "run": "cp {color.pfm} {output.pfm}" })],
+        "command" => all.clear(),
         "geometric-as-written" => all.push(json!({ "visits_center": false, "normal_threshold": 1.0 })),
         _ => {}
     }
@@ -61,12 +64,12 @@ fn build(registry: &Registry, id: &str, settings: &Value) -> Subject {
 
 /// Every built-in method, plain and guarded, with its settings.
 fn subjects() -> Vec<Subject> {
-    let registry = noisefloor_registry::registry(&[]);
+    let registry = noisefloor_registry::registry([]);
     let mut all = Vec::new();
-    for entry in registry.entries() {
-        for settings in settings(entry.id) {
-            all.push(build(&registry, entry.id, &settings));
-            all.push(build(&registry, &format!("guarded({})", entry.id), &settings));
+    for factory in registry.factories() {
+        for settings in settings(factory.id()) {
+            all.push(build(&registry, factory.id(), &settings));
+            all.push(build(&registry, &format!("guarded({})", factory.id()), &settings));
         }
     }
     all
@@ -113,7 +116,7 @@ fn survive(case: &str, mut f: Frame) {
                 assert!(card.missing(&f).is_empty(), "{}, {case}: ran without its needs", subject.label);
                 assert!(output.image.same_shape(&f.color.mean), "{}, {case}", subject.label);
                 assert_eq!(output.image.count_non_finite(), 0, "{}, {case}", subject.label);
-                assert!(output.figures.iter().all(|(_, v)| v.is_finite()), "{}, {case}", subject.label);
+                assert!(output.figures.iter().all(|f| f.value.is_finite()), "{}, {case}", subject.label);
                 assert_enclosed(&subject, &f, &output.image, case);
             }
             Err(DenoiseError::MissingInputs { missing, .. }) => {
@@ -382,7 +385,7 @@ fn diagnostics_survive_what_the_image_survives() {
             match (plain, subject.denoiser.denoise(&input)) {
                 (Ok(plain), Ok(full)) => {
                     assert_eq!(plain.image, full.image, "{}", subject.label);
-                    assert!(full.diagnostics.iter().all(|(_, image)| image.count_non_finite() == 0));
+                    assert!(full.diagnostics.iter().all(|d| d.image.count_non_finite() == 0));
                 }
                 (plain, full) => assert_eq!(plain.err(), full.err(), "{}", subject.label),
             }
@@ -405,7 +408,7 @@ fn one_and_four_threads_give_the_same_bits() {
 
 #[test]
 fn a_power_of_two_of_exposure_scales_the_output_exactly() {
-    let registry = noisefloor_registry::registry(&[]);
+    let registry = noisefloor_registry::registry([]);
     let f = frame(SIZE.0, SIZE.1, 16);
     for exponent in [-13, 13] {
         let k = 2f32.powi(exponent);

@@ -10,7 +10,7 @@ fn run_study(text: &str) -> (tempfile::TempDir, Summary) {
     let study = Study::from_toml(text, Path::new("test.toml")).unwrap_or_else(|e| panic!("{e}"));
     let summary = run(&StudyRun {
         study: &study,
-        registry: &noisefloor::registry::registry(&[]),
+        registry: &noisefloor::registry::registry([]),
         out_dir: &folder.path().join("out"),
         cache_dir: &folder.path().join("cache"),
         size: None,
@@ -40,7 +40,7 @@ id = "guarded(geometric-corrected)"
 
 #[test]
 fn rows_of_builtin_studies_name_methods_and_parameters_that_exist() {
-    let registry = noisefloor::registry::registry(&[]);
+    let registry = noisefloor::registry::registry([]);
     for study in builtin_studies() {
         let study = study.study().unwrap_or_else(|e| panic!("{e}"));
         for row in &study.methods {

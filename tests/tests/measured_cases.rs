@@ -123,16 +123,16 @@ fn figures(label: &str, id: &str, method: &dyn Denoiser) -> Option<Figures> {
 
 /// All registered methods with their defaults, and the settings told apart.
 fn all() -> Vec<Figures> {
-    let registry = noisefloor_registry::registry(&[]);
+    let registry = noisefloor_registry::registry([]);
     let mut out = Vec::new();
-    for entry in registry.entries() {
-        let of_entry = SETTINGS.iter().filter(|(id, ..)| *id == entry.id);
+    for factory in registry.factories().iter().filter(|factory| factory.ready()) {
+        let of_entry = SETTINGS.iter().filter(|(id, ..)| *id == factory.id());
         let settings = of_entry
-            .map(|(_, name, value)| (format!("{} {name}={value}", entry.id), json!({ *name: value })));
-        for (label, settings) in [(entry.id.to_owned(), json!({}))].into_iter().chain(settings) {
+            .map(|(_, name, value)| (format!("{} {name}={value}", factory.id()), json!({ *name: value })));
+        for (label, settings) in [(factory.id().to_owned(), json!({}))].into_iter().chain(settings) {
             let settings: Map<String, Value> = settings.as_object().cloned().unwrap_or_default();
-            let method = registry.build(entry.id, &settings).unwrap();
-            out.extend(figures(&label, entry.id, method.denoiser.as_ref()));
+            let method = registry.build(factory.id(), &settings).unwrap();
+            out.extend(figures(&label, factory.id(), method.denoiser.as_ref()));
         }
     }
     out

@@ -34,7 +34,7 @@ fn light(image: &Image) -> f64 {
 
 #[test]
 fn the_default_is_not_above_its_input_and_keeps_the_light_of_diffuse_and_glossy_scenes() {
-    let method = noisefloor_registry::registry(&[]).build("virtual-flash", &Map::new()).unwrap().denoiser;
+    let method = noisefloor_registry::registry([]).build("virtual-flash", &Map::new()).unwrap().denoiser;
     for id in ["cornell-diffuse", "cornell", "toaster"] {
         let scene = Prepared::new(&(find(id).unwrap().build)().at_frame(0)).unwrap();
         let truth = frame(&scene, REFERENCE, 1, Record::color_only()).color.mean;

@@ -1,9 +1,10 @@
 //! What all verbs share: the registry, threads, memory, output folders.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use anyhow::Context as _;
-use noisefloor_denoiser::{Entry, Registry};
+use noisefloor_denoiser::{Factory, Registry};
 
 /// Shared by the verbs.
 #[derive(Debug)]
@@ -13,7 +14,7 @@ pub struct Context {
 }
 
 impl Context {
-    pub fn new(extra: &[Entry]) -> Self {
+    pub fn new(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> Self {
         Self { registry: noisefloor_registry::registry(extra) }
     }
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context as _, bail};
-use noisefloor_denoiser::{Diagnostics, Input};
+use noisefloor_denoiser::{Diagnostic, Diagnostics, Input};
 use noisefloor_io::{ReadOptions, read_info, read_origin, same_file, write_image_at};
 use serde_json::{Map, Value, json};
 
@@ -40,7 +40,10 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     let given = Input::new(&frame);
     let start = Instant::now();
     let mut made = method.denoiser.denoise(&given)?;
-    let seconds = start.elapsed().as_secs_f64();
+    let wall = start.elapsed().as_secs_f64();
+    // A program outside says what it computed; the rest is around it.
+    let own = made.seconds.filter(|own| *own <= wall);
+    let seconds = own.unwrap_or(wall);
     let peak = measured_peak_memory();
     let non_finite_output = made.image.count_non_finite();
     input::as_read(&method.id, &mut made.image, &hygiene);
@@ -51,9 +54,9 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
     if args.diagnostics {
         let probe = args.probe.map(|p| (p.x, p.y));
         let with = method.denoiser.denoise(&given.with_diagnostics(Diagnostics::On { probe }))?;
-        let titles: Vec<&str> = with.diagnostics.iter().map(|(name, _)| name.as_str()).collect();
+        let titles: Vec<&str> = with.diagnostics.iter().map(|d| d.name.as_str()).collect();
         let paths = diagnostic_paths(&args.output, &titles);
-        for ((name, image), path) in with.diagnostics.iter().zip(paths) {
+        for (Diagnostic { name, image, .. }, path) in with.diagnostics.iter().zip(paths) {
             let named = BTreeMap::from([("diagnostic".to_owned(), name.clone())]);
             write_image_at(&path, image, &named, &window)?;
             written.push((name.clone(), path));
@@ -72,11 +75,17 @@ pub fn run(context: &Context, args: &Denoise) -> anyhow::Result<Exit> {
             "threads": rayon::current_num_threads(),
             "peak_memory_bytes": peak,
             "diagnostics": written.iter().map(|(name, path)| json!({"name": name, "path": path})).collect::<Vec<_>>(),
-            "figures": made.figures.iter().cloned().collect::<BTreeMap<_, _>>(),
+            "figures": made.figures.iter().map(|f| (f.name.as_str(), f.value)).collect::<BTreeMap<_, _>>(),
             "input": hygiene,
             "findings": findings,
             "non_finite_output": non_finite_output,
         });
+        if let Some(own) = own {
+            object["seconds"]["around"] = (wall - own).into();
+        }
+        if !made.log.is_empty() {
+            object["log"] = made.log.clone().into();
+        }
         if let Some(picture) = main.describe() {
             object["picture"] = picture;
         }

@@ -1,6 +1,6 @@
 //! The `noisefloor` command as a library, one verb per file.
 //!
-//! [`main_with`] takes the entries of a user's own methods, so that a program outside this repository gets the whole
+//! [`main_with`] takes a user's own methods, so that a program outside this repository gets the whole
 //! command with its denoiser in every list, sweep and report.
 
 mod args;
@@ -26,9 +26,10 @@ mod table;
 
 use std::io::{self, ErrorKind, Write as _};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::Parser;
-use noisefloor_denoiser::Entry;
+use noisefloor_denoiser::Factory;
 
 use crate::exit::Exit;
 use crate::out::note;
@@ -38,7 +39,7 @@ use crate::out::note;
 /// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage; 3: a report of an unfinished study; 130:
 /// stopped by Ctrl-C.
 #[must_use]
-pub fn main_with(extra: &[Entry]) -> ExitCode {
+pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode {
     let args = match args::Args::try_parse() {
         Ok(args) => args,
         Err(asked) => return help(&asked).into(),

@@ -1,6 +1,6 @@
 //! `noisefloor methods`.
 
-use noisefloor_denoiser::{Entry, Guarded, Method, Need, ParamDoc};
+use noisefloor_denoiser::{Factory, Guarded, Method, MethodCard, Need, Param};
 use serde_json::{Map, Value, json};
 
 use crate::args::List;
@@ -12,63 +12,88 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<Exit> {
     if let Some(id) = &args.id {
         return one(context, id, args.json);
     }
-    let entries = context.registry.entries();
+    let factories = context.registry.factories();
     if args.json {
-        let list: Vec<Value> = entries.iter().map(|entry| describe(context, entry)).collect();
+        let list: Vec<Value> = factories.iter().map(|factory| describe(context, factory.as_ref())).collect();
         say!(Out::Stdout, "{}", serde_json::to_string_pretty(&list)?)?;
         return Ok(Exit::Done);
     }
-    for entry in entries {
-        let method = context.registry.build(entry.id, &Map::new())?;
-        say!(Out::Stdout, "{}", text(entry, &method, false))?;
+    for factory in factories {
+        let method = match factory.ready() {
+            true => Some(context.registry.build(factory.id(), &Map::new())?),
+            false => None,
+        };
+        say!(Out::Stdout, "{}", text(factory.as_ref(), method.as_ref(), false))?;
     }
     say!(Out::Stdout, "guarded(ID)\n  any method, projected into the confidence interval of the input mean")?;
-    let guard =
-        params(&[Guarded::PARAM], &json!({ Guarded::PARAM.name: Guarded::DEFAULT_LEVEL.confidence() }));
-    Out::Stdout.text(guard)?;
+    let guard = Guarded::param();
+    let defaults = json!({ Guarded::PARAM: guard.default });
+    Out::Stdout.text(params(&[guard], &defaults))?;
     say!(Out::Stdout, "\n`noisefloor methods ID` shows one with its page")?;
     Ok(Exit::Done)
 }
 
 /// Everything about one method.
 fn one(context: &Context, id: &str, as_json: bool) -> anyhow::Result<Exit> {
-    let method = context.registry.build(id, &Map::new()).map_err(|error| usage(error.to_string()))?;
     let inner = id.trim_start_matches("guarded(").trim_end_matches(')');
-    let Some(entry) = context.registry.entries().iter().find(|entry| entry.id == inner) else {
+    let Some(factory) = context.registry.find(inner) else {
+        // The registry knows which names are nearest.
+        let unknown = context.registry.build(id, &Map::new()).map(|_| ());
+        unknown.map_err(|error| usage(error.to_string()))?;
         return Err(usage(format!("there is no method `{inner}`")));
     };
-    let page = noisefloor_registry::readme(entry);
+    let method = match factory.ready() {
+        true => Some(context.registry.build(id, &Map::new()).map_err(|error| usage(error.to_string()))?),
+        false => None,
+    };
+    let page = factory.readme();
     if as_json {
-        let mut object = describe(context, entry);
-        fill(&mut object, &method);
+        let mut object = describe(context, factory);
+        if let Some(method) = &method {
+            fill(&mut object, method);
+        }
         object["id"] = id.into();
         object["readme"] = page.into();
         say!(Out::Stdout, "{}", serde_json::to_string_pretty(&object)?)?;
         return Ok(Exit::Done);
     }
-    Out::Stdout.text(text(entry, &method, true))?;
+    Out::Stdout.text(text(factory, method.as_ref(), true))?;
     if let Some(page) = page {
         say!(Out::Stdout, "\n{}", page.trim_end())?;
     }
     Ok(Exit::Done)
 }
 
-/// Source, needs and parameters; in `full` also uses, claims and notes.
-fn text(entry: &Entry, method: &Method, full: bool) -> String {
-    let card = method.denoiser.card();
+/// Source, needs and parameters; in `full` also uses, claims and notes. Without a method, which then needs a setting first,
+/// what its factory knows.
+fn text(factory: &dyn Factory, method: Option<&Method>, full: bool) -> String {
+    let Some(method) = method else {
+        let defaults = Value::Object(factory.defaults());
+        let head = format!("{}\n  {}\n", factory.id(), factory.summary());
+        return head + &params(factory.params(), &defaults);
+    };
+    let mut out = format!("{}\n  {}\n", method.id, factory.summary());
+    out.push_str(&card(&method.denoiser.card(), full));
+    out.push_str(&params(factory.params(), &method.params));
+    if method.params.get(Guarded::PARAM).is_some() {
+        out.push_str(&params(&[Guarded::param()], &method.params));
+    }
+    out
+}
+
+/// Source and needs; in `full` also uses, claims and notes.
+fn card(card: &MethodCard, full: bool) -> String {
     let list = |needs: &[Need]| needs.iter().map(Need::to_string).collect::<Vec<_>>().join(", ");
     let or = |text: String, nothing: &str| if text.is_empty() { nothing.to_owned() } else { text };
     let mut out = format!(
-        "{}\n  {}\n  source: {} ({})\n  needs: {}\n",
-        method.id,
-        entry.summary,
+        "  source: {} ({})\n  needs: {}\n",
         card.citation.text,
         card.citation.key,
         or(list(&card.needs), "nothing but the colour")
     );
     if full {
         out.push_str(&format!("  uses, where the frame has it: {}\n", or(list(&card.uses), "nothing more")));
-        let bounds: Vec<&str> = card.claims.error_bound.iter().map(|claim| claim.name).collect();
+        let bounds: Vec<&str> = card.claims.error_bound.iter().map(|claim| claim.name.as_ref()).collect();
         let says = |yes: bool| if yes { "yes" } else { "no" };
         out.push_str(&format!(
             "  claims: error bound {}; consistent {}; estimates its own error {}\n",
@@ -76,24 +101,25 @@ fn text(entry: &Entry, method: &Method, full: bool) -> String {
             says(card.claims.consistent),
             says(card.claims.estimates_error)
         ));
+        let depends = card.varies_with.iter().map(|(what, why)| format!("{what} ({why})"));
+        out.push_str(&format!(
+            "  depends on: {}\n",
+            or(depends.collect::<Vec<_>>().join(", "), "nothing it should not")
+        ));
         for note in &card.notes {
             out.push_str(&format!("  note: {note}\n"));
         }
-    }
-    out.push_str(&params(entry.params, &method.params));
-    if method.params.get(Guarded::PARAM.name).is_some() {
-        out.push_str(&params(&[Guarded::PARAM], &method.params));
     }
     out
 }
 
 /// One line for each parameter, with its default.
-fn params(docs: &[ParamDoc], defaults: &Value) -> String {
-    let rows: Vec<[String; 2]> = docs
+fn params(table: &[Param], defaults: &Value) -> String {
+    let rows: Vec<[String; 2]> = table
         .iter()
         .map(|p| {
-            let default = defaults.get(p.name).unwrap_or(&Value::Null);
-            [format!("    {} = {default}", p.name), format!("[{}]  {}", p.range, p.about)]
+            let default = defaults.get(&p.name).unwrap_or(&Value::Null);
+            [format!("    {} = {default}", p.name), format!("[{}]  {}", p.range(), p.described())]
         })
         .collect();
     // Left-aligned second column: pad the first only.
@@ -101,18 +127,24 @@ fn params(docs: &[ParamDoc], defaults: &Value) -> String {
     rows.iter().map(|row| format!("{:width$}  {}\n", row[0], row[1])).collect()
 }
 
-fn describe(context: &Context, entry: &Entry) -> Value {
-    let defaults = (entry.defaults)();
-    let params: Vec<Value> = entry.params.iter().map(|p| param(p, &defaults)).collect();
-    let mut object = json!({"id": entry.id, "summary": entry.summary, "params": params});
-    if let Ok(method) = context.registry.build(entry.id, &Map::new()) {
+fn describe(context: &Context, factory: &dyn Factory) -> Value {
+    let params: Vec<Value> = factory.params().iter().map(|p| param(p, &p.default)).collect();
+    let mut object = json!({"id": factory.id(), "summary": factory.summary(), "params": params});
+    if let Ok(method) = context.registry.build(factory.id(), &Map::new()) {
         fill(&mut object, &method);
     }
     object
 }
 
-fn param(doc: &ParamDoc, defaults: &Value) -> Value {
-    json!({"name": doc.name, "default": defaults.get(doc.name), "range": doc.range, "about": doc.about})
+fn param(param: &Param, default: &Value) -> Value {
+    json!({
+        "name": param.name,
+        "default": default,
+        "range": param.range(),
+        "symbol": param.symbol,
+        "section": param.section,
+        "about": param.about,
+    })
 }
 
 /// What a method's card and the combinators around it add.
@@ -123,11 +155,11 @@ fn fill(object: &mut Value, method: &Method) {
     object["citation"] = json!({"key": card.citation.key, "text": card.citation.text});
     object["needs"] = strings(&card.needs).into();
     object["uses"] = strings(&card.uses).into();
-    object["bounds"] = card.claims.error_bound.iter().map(|c| c.name).collect::<Vec<_>>().into();
+    object["bounds"] = card.claims.error_bound.iter().map(|c| c.name.clone()).collect::<Vec<_>>().into();
     object["consistent"] = card.claims.consistent.into();
     object["notes"] = card.notes.into();
-    if let (Some(params), Some(_)) = (object["params"].as_array_mut(), method.params.get(Guarded::PARAM.name))
+    if let (Some(params), Some(level)) = (object["params"].as_array_mut(), method.params.get(Guarded::PARAM))
     {
-        params.push(param(&Guarded::PARAM, &method.params));
+        params.push(param(&Guarded::param(), level));
     }
 }

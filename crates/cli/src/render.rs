@@ -184,9 +184,9 @@ fn find_scene(args: &Render) -> anyhow::Result<(Scene, Vec<PathBuf>)> {
 /// Everything that some registered method needs or uses, as far as the scene can give it.
 fn useful(context: &Context, can: &[Quantity]) -> Record {
     let mut wanted = BTreeSet::new();
-    for entry in context.registry.entries() {
-        if let Ok(method) = context.registry.build(entry.id, &Map::new()) {
-            let card = method.denoiser.card();
+    for factory in context.registry.factories() {
+        if let Ok(method) = factory.build(&Map::new()) {
+            let card = method.card();
             wanted.extend(card.needs.iter().chain(&card.uses).filter_map(quantity));
         }
     }

@@ -8,6 +8,7 @@ use std::path::Path;
 use anyhow::{Context as _, bail};
 use noisefloor_harness::summary::Summary;
 use noisefloor_harness::{Maps, MethodRow, Study, StudyRun, memory_estimate};
+use noisefloor_io::{ReadOptions, read_frame, scan_scenes};
 use noisefloor_report::ReportFiles;
 
 use crate::args::Run;
@@ -23,7 +24,7 @@ use crate::table::{paper_table, summary_table};
 
 pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
-    let (study, kind) = find_study(args)?;
+    let (study, kind) = find_study(context, args)?;
     let out = args.out.clone().unwrap_or_else(|| {
         let size = args.size.map_or(String::new(), |s| format!("-{}x{}", s.width, s.height));
         Path::new("noisefloor-results").join(format!("{}{size}", study.name))
@@ -88,7 +89,7 @@ fn fail_on_violations(summary: &Summary) -> anyhow::Result<()> {
     bail!("an enclosure that must always hold was violated:\n  {}", violations.join("\n  "))
 }
 
-fn find_study(args: &Run) -> anyhow::Result<(Study, Kind)> {
+fn find_study(context: &Context, args: &Run) -> anyhow::Result<(Study, Kind)> {
     let name = args.study.as_deref().unwrap_or("quick");
     let path = Path::new(name);
     let of_scene = is_gltf(path) && path.is_file()
@@ -103,10 +104,12 @@ fn find_study(args: &Run) -> anyhow::Result<(Study, Kind)> {
         check_options(args, kind, name)?;
         let fresh = args.maps.as_deref() == Some(Maps::Fresh.name());
         let shot = shot(&args.shot, if fresh { Maps::Fresh } else { Maps::Fixed })?;
-        Study::for_scene(name, shot, scene_rows())?
+        // A renderer can give everything that a method asks for.
+        Study::for_scene(name, shot, MethodRow::for_all(&context.registry, |_| true))?
     } else if kind == Kind::Folder {
         check_options(args, kind, name)?;
-        Study::for_folder(path, args.spp, folder_rows())
+        folder_rows(context, path, args)
+            .and_then(|rows| Ok(Study::for_folder(path, args.spp, rows)?))
             .with_context(|| format!("reading the frames in {}", path.display()))?
     } else if path.is_file() {
         Study::from_file(path)?
@@ -143,35 +146,13 @@ fn command(args: &Run) -> String {
     text
 }
 
-/// Rows for a scene that is rendered here.
-fn scene_rows() -> Vec<MethodRow> {
-    [
-        "mc",
-        "virtual-flash",
-        "rdfc",
-        "geometric-corrected",
-        "guarded(virtual-flash)",
-        "guarded(geometric-corrected)",
-    ]
-    .map(MethodRow::new)
-    .into()
-}
-
-/// Rows for a folder of somebody else's frames: no flash image. On frames without albedo the geometric rows are skipped: one
-/// that tells no materials apart shows how a lamp bleeds, and nothing about the method.
-fn folder_rows() -> Vec<MethodRow> {
-    let row = |id: &str| MethodRow::new(id);
-    let color = |id: &str, label: &str| row(id).set("guide", "color").label(label);
-    let none = |id: &str, label: &str| row(id).set("guide", "none").label(label);
-    vec![
-        row("mc"),
-        row("virtual-flash"),
-        color("virtual-flash", "virtual-flash guide=color"),
-        color("guarded(virtual-flash)", "guarded(virtual-flash) guide=color"),
-        none("virtual-flash", "virtual-flash guide=none"),
-        none("guarded(virtual-flash)", "guarded(virtual-flash) guide=none"),
-        row("rdfc"),
-        row("geometric-corrected"),
-        row("guarded(geometric-corrected)"),
-    ]
+/// Rows for a folder of somebody else's frames: what the first frame has decides which methods run how.
+fn folder_rows(context: &Context, folder: &Path, args: &Run) -> anyhow::Result<Vec<MethodRow>> {
+    let options = ReadOptions { spp: args.spp, ..ReadOptions::default() };
+    let folders = scan_scenes(folder, &options)?;
+    let first = folders.iter().find_map(|folder| folder.frames.first());
+    // A frame that cannot be read or contradicts itself is told with its reason when its cells come.
+    let mut frame = first.and_then(|first| read_frame(&first.path, &options).ok());
+    frame.take_if(|frame| frame.sanitize().is_err());
+    Ok(MethodRow::for_all(&context.registry, |need| frame.as_ref().is_some_and(|frame| need.is_met(frame))))
 }

@@ -1,17 +1,26 @@
+use std::borrow::Cow;
 use std::fmt;
 
 use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
 use noisefloor_stats::Level;
 
-use crate::{Alternative, entry::nearest};
+use crate::{Alternative, param::nearest};
 
 /// Where a method comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Citation {
     /// Short key such as `moon2013flash`.
-    pub key: &'static str,
+    pub key: Cow<'static, str>,
     /// Authors, title, venue, year.
-    pub text: &'static str,
+    pub text: Cow<'static, str>,
+}
+
+impl Citation {
+    /// A source known when the program was written.
+    #[must_use]
+    pub const fn new(key: &'static str, text: &'static str) -> Self {
+        Self { key: Cow::Borrowed(key), text: Cow::Borrowed(text) }
+    }
 }
 
 /// One input that a method cannot run without.
@@ -93,13 +102,76 @@ pub struct Claims {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Claim {
     /// Name shown in reports, such as `Theorem 3.1`.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Half-width = Σ factor·t(level)·s/√n.
     pub terms: Vec<(f64, Level)>,
     /// 1−α that the bound is claimed for; meaningless for an enclosure, which is certain.
     pub level: Level,
     /// Whether a proof covers this exact procedure; otherwise it is reported as measured only.
     pub proven: bool,
+}
+
+/// What a result should not depend on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Invariance {
+    /// All radiances times a power of two give the image times that power.
+    Exposure,
+    /// Other names for red, green and blue.
+    ChannelOrder,
+    /// Features in other units: depth in centimetres for metres.
+    FeatureUnits,
+}
+
+impl Invariance {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Exposure, Self::ChannelOrder, Self::FeatureUnits];
+}
+
+impl fmt::Display for Invariance {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Exposure => "exposure",
+            Self::ChannelOrder => "order of channels",
+            Self::FeatureUnits => "units of features",
+        })
+    }
+}
+
+/// How long a method takes for a megapixel on one core at its parameters, roughly: what plans and estimates begin with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Cost {
+    /// No time worth telling.
+    None,
+    /// About a second.
+    Second,
+    /// About ten seconds.
+    TenSeconds,
+    /// Minutes.
+    Minutes,
+}
+
+impl Cost {
+    /// Seconds for a megapixel on one core, to a factor of three.
+    #[must_use]
+    pub fn seconds(self) -> f64 {
+        match self {
+            Self::None => 0.01,
+            Self::Second => 1.0,
+            Self::TenSeconds => 10.0,
+            Self::Minutes => 100.0,
+        }
+    }
+}
+
+/// What a method is there for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// To denoise: it takes part wherever all methods do.
+    Method,
+    /// A part of another method, run alone where asked for by name.
+    Part,
+    /// To show a mistake: no baseline, and it sets no axis.
+    Fixture,
 }
 
 /// Identity, requirements and claims of a configured method.
@@ -124,6 +196,13 @@ pub struct MethodCard {
     pub neighbors: usize,
     /// Promises.
     pub claims: Claims,
+    /// What the result depends on although it should not, each with the reason; everything else in [`Invariance`] is a
+    /// promise that is tested.
+    pub varies_with: Vec<(Invariance, String)>,
+    /// Rough cost.
+    pub cost: Cost,
+    /// What it is there for.
+    pub role: Role,
     /// Conditions, deviations and known failures worth a line in a report.
     pub notes: Vec<String>,
 }
@@ -142,6 +221,9 @@ impl MethodCard {
             named_features: Vec::new(),
             neighbors: 0,
             claims: Claims::default(),
+            varies_with: Vec::new(),
+            cost: Cost::Second,
+            role: Role::Method,
             notes: Vec::new(),
         }
     }

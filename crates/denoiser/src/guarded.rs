@@ -2,9 +2,9 @@ use noisefloor_frame::Variance;
 use noisefloor_stats::Level;
 use serde_json::Value;
 
-use crate::entry::shown;
+use crate::param::{Param, check, kinds};
 use crate::{
-    Adaptive, BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, ParamDoc,
+    Adaptive, BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, Unit,
     half_widths,
 };
 
@@ -29,12 +29,16 @@ impl Guarded {
     /// Level unless said otherwise: 99 %, that of the source work's second step.
     pub const DEFAULT_LEVEL: Level = Level::TWO_SIDED_99;
 
-    /// Its one parameter; all others belong to the inner method.
-    pub const PARAM: ParamDoc = ParamDoc {
-        name: "guard_level",
-        range: "above 0 and below 1, two-sided confidence",
-        about: "level of the interval that the output is projected into",
-    };
+    /// Name of its one parameter; all others belong to the inner method.
+    pub const PARAM: &'static str = "guard_level";
+
+    /// Its one parameter.
+    #[must_use]
+    pub fn param() -> Param {
+        let about = "level of the interval that the output is projected into";
+        let default = Self::DEFAULT_LEVEL.confidence().into();
+        kinds::between(0.0, 1.0).unit("two-sided confidence").named(Self::PARAM, about, default)
+    }
 
     /// How often a method may be guarded again: once says all, and what asks for thousands is a mistake that would
     /// fill the stack.
@@ -59,22 +63,15 @@ impl Guarded {
     }
 
     pub(crate) fn from_parts(id: &str, inner: Method, level: Option<Value>) -> Result<Method, BuildError> {
-        let out_of_range = |value: &Value| BuildError::OutOfRange {
-            method: id.into(),
-            parameter: Self::PARAM.name.into(),
-            value: shown(&value.to_string()),
-            range: Self::PARAM.range.into(),
-        };
-        let level = match &level {
-            None => Self::DEFAULT_LEVEL,
-            Some(value) => value
-                .as_f64()
-                .and_then(|confidence| Level::two_sided(confidence).ok())
-                .ok_or_else(|| out_of_range(value))?,
-        };
+        let value = level.unwrap_or_else(|| Self::DEFAULT_LEVEL.confidence().into());
+        check(&Self::param(), &value).map_err(|error| BuildError::out_of_range(id, error))?;
+        // A number above 0 and below 1 is a level.
+        let level = value.as_f64().and_then(|confidence| Level::two_sided(confidence).ok());
+        let level = level.unwrap_or(Self::DEFAULT_LEVEL);
         let mut params = inner.params;
-        params[Self::PARAM.name] = level.confidence().into();
-        Ok(Method { id: id.into(), params, denoiser: Box::new(Self::new(inner.denoiser, level)) })
+        params[Self::PARAM] = level.confidence().into();
+        let denoiser = Box::new(Self::new(inner.denoiser, level));
+        Ok(Method { id: id.into(), params, version: inner.version, denoiser })
     }
 }
 
@@ -88,8 +85,8 @@ impl Denoiser for Guarded {
                 card.needs.push(need);
             }
         }
-        let claim = |name, factor, proven| Claim {
-            name,
+        let claim = |name: &'static str, factor, proven| Claim {
+            name: name.into(),
             terms: vec![(factor, self.level)],
             level: self.level,
             proven,
@@ -141,7 +138,7 @@ impl Denoiser for Guarded {
         output.bounds.clear();
         output.error_estimate = None;
         output.estimate_of = None;
-        output.figures.push(("projected values".into(), moved as f64));
+        output.figure("projected values", Unit::None, moved as f64);
         Ok(output)
     }
 

@@ -16,7 +16,7 @@
 //!
 //! impl Denoiser for Identity {
 //!     fn card(&self) -> MethodCard {
-//!         MethodCard::new("identity", "Identity", Citation { key: "none", text: "no source" })
+//!         MethodCard::new("identity", "Identity", Citation::new("none", "no source"))
 //!     }
 //!     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
 //!         Ok(Output::from_image(input.target.color.mean.clone()))
@@ -24,18 +24,21 @@
 //! }
 //! ```
 //!
-//! To be found by name, a method also gives an [`Entry`], and a [`Registry`] is a list of entries.
+//! To be found by name, a method also gives a [`Factory`], most easily by [`method()`] with a struct of [`parameters!`], and a
+//! [`Registry`] is a list of factories.
 
 mod adaptive;
 mod card;
-mod entry;
 mod error;
+mod exposure;
+mod factory;
 mod guarded;
 mod input;
 mod interval;
 mod mc;
 mod needs;
 mod output;
+pub mod param;
 mod registry;
 mod timer;
 
@@ -43,15 +46,17 @@ mod timer;
 mod tests;
 
 pub use adaptive::Adaptive;
-pub use card::{Citation, Claim, Claims, MethodCard, Need};
-pub use entry::{Build, BuildError, Entry, ParamDoc, build_with, params_from};
+pub use card::{Citation, Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
 pub use error::DenoiseError;
+pub use exposure::Exposed;
+pub use factory::{BuildError, Factory, check_overrides, method};
 pub use guarded::Guarded;
 pub use input::{Diagnostics, Input};
 pub use interval::{half_widths, into_half_widths};
-pub use mc::{MC_ENTRY, MonteCarlo};
+pub use mc::{MonteCarlo, NoParams, mc};
 pub use needs::{Alternative, Setting};
-pub use output::{Bound, Output, StageSeconds};
+pub use output::{Bound, Diagnostic, Figure, Output, StageSeconds, Unit};
+pub use param::{Choices, Kind, Param, ParamError, Parameters};
 pub use registry::{Method, Registry};
 pub use timer::StageTimer;
 

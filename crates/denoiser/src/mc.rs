@@ -1,32 +1,32 @@
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
-use crate::{Citation, DenoiseError, Denoiser, Entry, Input, MethodCard, Output, build_with};
+use crate::{Citation, Cost, DenoiseError, Denoiser, Factory, Input, MethodCard, Output, method, parameters};
 
 /// Plain Monte Carlo: returns the noisy mean itself. The baseline of every plot.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct MonteCarlo;
 
-#[derive(Debug, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NoParams {}
+parameters! {
+    /// Of methods that take none.
+    pub struct NoParams {}
+}
 
-/// Registry entry of [`MonteCarlo`].
-pub const MC_ENTRY: Entry = Entry {
-    id: "mc",
-    summary: "plain Monte Carlo: the noisy input itself, every plot's baseline",
-    params: &[],
-    defaults: || serde_json::Value::Object(serde_json::Map::new()),
-    build: |overrides| build_with("mc", &[], overrides, |_: NoParams| Ok(MonteCarlo)),
-};
+/// Factory of [`MonteCarlo`].
+#[must_use]
+pub fn mc() -> Arc<dyn Factory> {
+    let summary = "plain Monte Carlo: the noisy input itself, every plot's baseline";
+    method("mc", summary, None, |_: NoParams| Ok(MonteCarlo))
+}
 
 impl Denoiser for MonteCarlo {
     fn card(&self) -> MethodCard {
         let mut card = MethodCard::new(
             "mc",
             "Monte Carlo (input)",
-            Citation { key: "kajiya1986", text: "J. T. Kajiya, The rendering equation, SIGGRAPH 1986" },
+            Citation::new("kajiya1986", "J. T. Kajiya, The rendering equation, SIGGRAPH 1986"),
         );
         card.claims.consistent = true;
+        card.cost = Cost::None;
         card
     }
 

@@ -1,5 +1,6 @@
 //! What may stand in for an input that a frame lacks, and why it lacks it.
 
+use std::borrow::Cow;
 use std::fmt;
 
 use noisefloor_frame::{FeatureId, Finding, FindingKind, Frame};
@@ -11,7 +12,7 @@ use crate::{DenoiseError, MethodCard, Need};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// Name of the parameter.
-    pub parameter: &'static str,
+    pub parameter: Cow<'static, str>,
     /// Value.
     pub value: Value,
 }
@@ -39,8 +40,12 @@ pub struct Alternative {
 impl Alternative {
     /// A setting that takes needs away and brings none.
     #[must_use]
-    pub fn new(parameter: &'static str, value: impl Into<Value>, lifts: impl Into<Vec<Need>>) -> Self {
-        let setting = Setting { parameter, value: value.into() };
+    pub fn new(
+        parameter: impl Into<Cow<'static, str>>,
+        value: impl Into<Value>,
+        lifts: impl Into<Vec<Need>>,
+    ) -> Self {
+        let setting = Setting { parameter: parameter.into(), value: value.into() };
         Self { setting, lifts: lifts.into(), asks: Vec::new() }
     }
 
@@ -56,9 +61,15 @@ impl MethodCard {
     /// nothing is missing or nothing helps.
     #[must_use]
     pub fn ways_out(&self, frame: &Frame) -> Vec<Vec<Setting>> {
-        let missing = self.missing(frame);
+        self.ways_out_where(|need| need.is_met(frame))
+    }
+
+    /// As [`MethodCard::ways_out`], where `met` says which needs are.
+    #[must_use]
+    pub fn ways_out_where(&self, met: impl Fn(&Need) -> bool) -> Vec<Vec<Setting>> {
+        let missing: Vec<Need> = self.needs.iter().filter(|need| !met(need)).cloned().collect();
         let usable = || {
-            let helps = |a: &&Alternative| a.asks.iter().all(|need| need.is_met(frame));
+            let helps = |a: &&Alternative| a.asks.iter().all(&met);
             self.alternatives.iter().filter(helps)
         };
         let lifts = |a: &Alternative, needs: &[Need]| needs.iter().all(|need| a.lifts.contains(need));
@@ -140,7 +151,7 @@ mod tests {
     }
 
     fn card(needs: &[Need]) -> MethodCard {
-        let mut card = MethodCard::new("needy", "Needy", Citation { key: "none", text: "none" });
+        let mut card = MethodCard::new("needy", "Needy", Citation::new("none", "none"));
         card.needs = needs.to_vec();
         card.alternatives = vec![
             Alternative::new("guide", "color", [Need::Flash]).asking([Need::ColorVariance]),

@@ -1,4 +1,5 @@
 use noisefloor_frame::Image;
+use noisefloor_stats::Level;
 use serde::{Deserialize, Serialize};
 
 /// Seconds of one named stage of a method.
@@ -10,13 +11,51 @@ pub struct StageSeconds {
     pub seconds: f64,
 }
 
-/// A bound that a method states for this very image.
+/// A bound that a method states for this very image; where the card's claims say how wide a bound is for every image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bound {
-    /// Which of the card's claims, by name.
-    pub claim: String,
-    /// Half-width per pixel and channel: |D−μ| ≤ half_width at the claim's level.
+    /// Name shown in reports.
+    pub name: String,
+    /// 1−α, per pixel and channel.
+    pub level: Level,
+    /// Half-width per pixel and channel: P(|D−μ| ≤ half_width) ≥ 1−α. Shape of the target, at least 0, infinite where
+    /// nothing is claimed.
     pub half_width: Image,
+}
+
+/// What the values of a diagnostic image or a figure are in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unit {
+    /// Those of the colour: brighter frames have larger values.
+    Radiance,
+    /// Squares of the colour's: variances and squared errors.
+    RadianceSquared,
+    /// Pixels.
+    Pixels,
+    /// None: shares, weights, counts, features in their unit range.
+    None,
+}
+
+/// A named number that a method gives along.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Figure {
+    /// Name for people, stable.
+    pub name: String,
+    /// Value.
+    pub value: f64,
+    /// What it is in.
+    pub unit: Unit,
+}
+
+/// A named image that shows how a method came to its result.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// Name for people, stable.
+    pub name: String,
+    /// The image.
+    pub image: Image,
+    /// What its values are in.
+    pub unit: Unit,
 }
 
 /// What a method gives back.
@@ -32,11 +71,16 @@ pub struct Output {
     /// Stated bounds.
     pub bounds: Vec<Bound>,
     /// Named images that the source work's figures show: flash image, homogeneous set, kernel radius.
-    pub diagnostics: Vec<(String, Image)>,
-    /// Named numbers worth keeping, such as the flash intensity.
-    pub figures: Vec<(String, f64)>,
+    pub diagnostics: Vec<Diagnostic>,
+    /// Numbers worth keeping, such as the flash intensity.
+    pub figures: Vec<Figure>,
     /// Seconds per stage in order.
     pub stages: Vec<StageSeconds>,
+    /// Seconds that the method itself says it computed for, where what is around it takes time too: a program that starts and
+    /// reads files. None: all of the time is the method's.
+    pub seconds: Option<f64>,
+    /// What a program outside said while it worked; empty for methods of this program.
+    pub log: String,
 }
 
 impl Output {
@@ -51,6 +95,18 @@ impl Output {
             diagnostics: Vec::new(),
             figures: Vec::new(),
             stages: Vec::new(),
+            seconds: None,
+            log: String::new(),
         }
+    }
+
+    /// Adds a figure.
+    pub fn figure(&mut self, name: impl Into<String>, unit: Unit, value: f64) {
+        self.figures.push(Figure { name: name.into(), value, unit });
+    }
+
+    /// Adds a diagnostic image.
+    pub fn diagnose(&mut self, name: impl Into<String>, unit: Unit, image: Image) {
+        self.diagnostics.push(Diagnostic { name: name.into(), image, unit });
     }
 }

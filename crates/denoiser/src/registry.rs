@@ -1,7 +1,9 @@
+use std::sync::Arc;
+
 use serde_json::{Map, Value};
 
-use crate::entry::{nearest, shown};
-use crate::{BuildError, Denoiser, Entry, Guarded};
+use crate::param::{nearest, shown};
+use crate::{BuildError, Denoiser, Factory, Guarded, factory};
 
 /// A method ready to run, with the parameters that made it.
 pub struct Method {
@@ -9,6 +11,8 @@ pub struct Method {
     pub id: String,
     /// All parameters, defaults included.
     pub params: Value,
+    /// What its results depend on beside them, see [`Factory::version`].
+    pub version: Option<String>,
     /// The method.
     pub denoiser: Box<dyn Denoiser>,
 }
@@ -19,31 +23,32 @@ impl std::fmt::Debug for Method {
     }
 }
 
-/// The methods that a program knows: built-in entries chained with a user's own.
+/// The methods that a program knows.
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
-    entries: Vec<Entry>,
+    factories: Vec<Arc<dyn Factory>>,
 }
 
 impl Registry {
-    /// Entries in display order; a later entry with the same id replaces an earlier one, so a user may
-    /// bring a variant of a built-in method.
+    /// Methods in display order; a later one with the same id replaces an earlier one, so a user may bring a variant of a
+    /// built-in method.
     #[must_use]
-    pub fn new(builtin: &[Entry], extra: &[Entry]) -> Self {
-        let mut entries: Vec<Entry> = Vec::new();
-        for entry in builtin.iter().chain(extra) {
-            match entries.iter_mut().find(|e| e.id == entry.id) {
-                Some(old) => *old = *entry,
-                None => entries.push(*entry),
-            }
-        }
-        Self { entries }
+    pub fn new(methods: impl IntoIterator<Item = Arc<dyn Factory>>) -> Self {
+        let mut registry = Self::default();
+        registry.extend(methods);
+        registry
     }
 
-    /// The entries in display order.
+    /// The methods in display order.
     #[must_use]
-    pub fn entries(&self) -> &[Entry] {
-        &self.entries
+    pub fn factories(&self) -> &[Arc<dyn Factory>] {
+        &self.factories
+    }
+
+    /// The method of this id, combinators not included.
+    #[must_use]
+    pub fn find(&self, id: &str) -> Option<&dyn Factory> {
+        self.factories.iter().find(|factory| factory.id() == id).map(AsRef::as_ref)
     }
 
     /// Builds `id` with overrides of its defaults. `guarded(ID)` wraps any method; its own parameter is
@@ -64,20 +69,34 @@ impl Registry {
     fn build_levels(&self, id: &str, overrides: &Map<String, Value>) -> Result<Method, BuildError> {
         if let Some(inner) = id.strip_prefix("guarded(").and_then(|rest| rest.strip_suffix(')')) {
             let mut rest = overrides.clone();
-            let level = rest.remove(Guarded::PARAM.name);
+            let level = rest.remove(Guarded::PARAM);
             let inner = self.build_levels(inner, &rest).map_err(offer_guard_level)?;
             return Guarded::from_parts(id, inner, level);
         }
-        let Some(entry) = self.entries.iter().find(|e| e.id == id) else {
-            let nearest = nearest(id, self.entries.iter().map(|e| e.id));
+        let Some(factory) = self.find(id) else {
+            let nearest = nearest(id, self.factories.iter().map(|f| f.id()));
             return Err(BuildError::UnknownMethod { id: shown(id), nearest });
         };
-        let denoiser = (entry.build)(overrides)?;
-        let mut params = (entry.defaults)();
-        for (name, value) in overrides {
-            params[name] = value.clone();
+        let denoiser = factory.build(overrides)?;
+        let mut params = factory.defaults();
+        params.extend(overrides.clone());
+        Ok(Method {
+            id: id.into(),
+            params: Value::Object(params),
+            version: factory.version(overrides),
+            denoiser,
+        })
+    }
+}
+
+impl Extend<Arc<dyn Factory>> for Registry {
+    fn extend<I: IntoIterator<Item = Arc<dyn Factory>>>(&mut self, methods: I) {
+        for factory in methods {
+            match self.factories.iter_mut().find(|known| known.id() == factory.id()) {
+                Some(old) => *old = factory,
+                None => self.factories.push(factory),
+            }
         }
-        Ok(Method { id: id.into(), params, denoiser })
     }
 }
 
@@ -85,7 +104,7 @@ impl Registry {
 fn offer_guard_level(error: BuildError) -> BuildError {
     match error {
         BuildError::UnknownParameter { method, parameter, mut nearest } => {
-            let own = format!("{} ({})", Guarded::PARAM.name, Guarded::PARAM.range);
+            let own = factory::offer(&Guarded::param());
             if !nearest.contains(&own) {
                 nearest.push(own);
             }

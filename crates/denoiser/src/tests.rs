@@ -1,11 +1,12 @@
+use std::sync::Arc;
+
 use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Samples, Sampling, Variance};
 use noisefloor_stats::{Level, t_quantile};
-use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::*;
 
-const NONE: Citation = Citation { key: "none", text: "no source" };
+const NONE: Citation = Citation::new("none", "no source");
 
 /// Returns a given image and claims things that a guard must take back.
 struct Fixed(Image);
@@ -15,7 +16,7 @@ impl Denoiser for Fixed {
         let mut card = MethodCard::new("fixed", "Fixed", NONE);
         card.claims.estimates_error = true;
         card.claims.error_bound =
-            vec![Claim { name: "own", terms: vec![], level: Level::TWO_SIDED_95, proven: false }];
+            vec![Claim { name: "own".into(), terms: vec![], level: Level::TWO_SIDED_95, proven: false }];
         card
     }
 
@@ -23,7 +24,8 @@ impl Denoiser for Fixed {
         input.check(&self.card())?;
         let mut output = Output::from_image(self.0.clone());
         output.error_estimate = Some(self.0.clone());
-        output.bounds = vec![Bound { claim: "own".into(), half_width: self.0.clone() }];
+        output.bounds =
+            vec![Bound { name: "own".into(), level: Level::TWO_SIDED_95, half_width: self.0.clone() }];
         Ok(output)
     }
 }
@@ -50,7 +52,8 @@ fn guard_projects_onto_the_interval_and_keeps_what_lies_inside() {
     for (got, expected) in output.image.plane(1).iter().zip([1.0 + width, 1.0 - width, 1.1, 1.0]) {
         assert!((got - expected).abs() < 1e-6, "{got} instead of {expected}");
     }
-    assert!(output.figures.contains(&("projected values".into(), 6.0)), "two of four pixels, three channels");
+    let Figure { name, value, .. } = &output.figures[0];
+    assert_eq!((name.as_str(), *value), ("projected values", 6.0), "two of four pixels, three channels");
 }
 
 #[test]
@@ -156,45 +159,73 @@ fn each_need_is_met_by_what_it_names_and_by_nothing_less() {
     assert!(!Need::Samples(2).is_met(&full), "every pixel counts");
 }
 
-#[derive(Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct Knobs {
-    radius: usize,
-    strength: f64,
-}
-
-impl Default for Knobs {
-    fn default() -> Self {
-        Self { radius: 3, strength: 0.5 }
+choices! {
+    /// Words.
+    enum Mode {
+        /// The one.
+        Fast = "fast",
+        /// The other.
+        VerySlow = "very-slow",
     }
 }
 
-const DOCS: &[ParamDoc] = &[
-    ParamDoc { name: "radius", range: "0 to 9 px", about: "r" },
-    ParamDoc { name: "strength", range: "0 to 1", about: "h" },
-];
-
-fn knobs(knobs: Knobs) -> Result<MonteCarlo, &'static str> {
-    match knobs {
-        Knobs { radius, .. } if radius > 9 => Err("radius"),
-        Knobs { strength, .. } if !(0.0..=1.0).contains(&strength) => Err("strength"),
-        _ => Ok(MonteCarlo),
+parameters! {
+    /// For tests.
+    struct Knobs {
+        /// How far
+        /// it looks.
+        radius: usize = 3, integer(0..=9).unit("px").symbol("r").section("Sec. 4");
+        /// How much it does.
+        strength: f64 = 0.5, number(0.0..=1.0);
+        /// How it does it, where said.
+        mode: Option<Mode> = None, choice::<Mode>().or_null();
+        /// What it does it with.
+        with: Vec<String> = vec!["a".into()], names(2);
+        /// Whether it does it.
+        on: bool = true, flag();
     }
 }
 
-const KNOBS_ENTRY: Entry = Entry {
-    id: "knobs",
-    summary: "for tests",
-    params: DOCS,
-    defaults: || json!({ "radius": 3, "strength": 0.5 }),
-    build: |overrides| build_with("knobs", DOCS, overrides, knobs),
-};
+fn knobs() -> Arc<dyn Factory> {
+    method("knobs", "for tests", Some("page"), |knobs: Knobs| knobs.check().map(|()| MonteCarlo))
+}
 
 #[test]
-fn parameters_come_from_defaults_and_overrides() {
-    let params: Knobs = params_from("knobs", DOCS, &overrides(json!({ "radius": 5 }))).unwrap();
-    assert_eq!(params, Knobs { radius: 5, strength: 0.5 });
-    assert!((KNOBS_ENTRY.build)(&Map::new()).is_ok());
+fn one_table_says_everything_about_parameters() {
+    let knobs = knobs();
+    let [radius, strength, mode, with, on] = knobs.params() else { panic!("five") };
+    assert_eq!(radius.described(), "r: How far it looks (Sec. 4)");
+    let ranges = [radius, strength, mode, with, on].map(Param::range);
+    assert_eq!(ranges, ["0 to 9 px", "0 to 1", "null | fast | very-slow", "up to 2 names", "true | false"]);
+    let defaults = json!({ "radius": 3, "strength": 0.5, "mode": null, "with": ["a"], "on": true });
+    assert_eq!(Value::Object(knobs.defaults()), defaults);
+    assert_eq!((knobs.readme(), knobs.version(&Map::new())), (Some("page"), None));
+    assert!(knobs.build(&Map::new()).is_ok());
+    // All that the table allows, the struct takes.
+    for given in [json!({ "mode": "very-slow" }), json!({ "with": [] }), json!({ "strength": 1 })] {
+        assert!(knobs.build(&overrides(given)).is_ok());
+    }
+}
+
+#[test]
+fn ranges_read_as_people_say_them() {
+    use std::ops::Bound::{Excluded, Included};
+
+    use crate::param::kinds::{above, between, integer, number};
+    for (param, range) in [
+        (number(-1.0..=1.0), "-1 to 1"),
+        (number(0.0..), "0 or more"),
+        (number(..), "any number"),
+        (above(0.0), "above 0"),
+        (between(0.0, 1.0).unit("two-sided"), "above 0 and below 1, two-sided"),
+        (number((Excluded(0.0), Included(100.0))).unit("%"), "above 0, at most 100 %"),
+        (integer(1..=2), "1 | 2"),
+        (integer(0..=usize::MAX), "0 or more"),
+    ] {
+        assert_eq!(param.range(), range);
+    }
+    assert!(!above(0.0).allows(&json!(0.0)) && above(0.0).allows(&json!(1e-300)));
+    assert!(!number(..).allows(&json!(null)), "what JSON makes of a NaN");
 }
 
 #[test]
@@ -203,11 +234,12 @@ fn build_errors_blame_the_parameter_and_give_its_range() {
         (json!({ "radius": "wide" }), "radius", "\"wide\"", "0 to 9 px"),
         (json!({ "strength": 0.7, "radius": -1 }), "radius", "-1", "0 to 9 px"),
         (json!({ "radius": 10 }), "radius", "10", "0 to 9 px"),
+        (json!({ "radius": 2.5 }), "radius", "2.5", "0 to 9 px"),
         (json!({ "radius": 9, "strength": 1.5 }), "strength", "1.5", "0 to 1"),
+        (json!({ "mode": "slow" }), "mode", "\"slow\"", "null | fast | very-slow"),
+        (json!({ "with": ["a", "b", "c"] }), "with", "[\"a\",\"b\",\"c\"]", "up to 2 names"),
     ] {
-        let Err(error) = (KNOBS_ENTRY.build)(&overrides(given.clone())) else {
-            panic!("{given} was accepted")
-        };
+        let Err(error) = knobs().build(&overrides(given.clone())) else { panic!("{given} was accepted") };
         let expected = BuildError::OutOfRange {
             method: "knobs".into(),
             parameter: parameter.into(),
@@ -216,26 +248,70 @@ fn build_errors_blame_the_parameter_and_give_its_range() {
         };
         assert_eq!(error, expected, "{given}");
     }
-    let Err(error) = (KNOBS_ENTRY.build)(&overrides(json!({ "radus": 1 }))) else { panic!("accepted") };
-    assert!(error.to_string().contains("nearest: radius (0 to 9 px); strength (0 to 1)"), "{error}");
-    let Err(error) = (MC_ENTRY.build)(&overrides(json!({ "radius": 1 }))) else { panic!("accepted") };
+    let Err(error) = knobs().build(&overrides(json!({ "radus": 1 }))) else { panic!("accepted") };
+    assert!(error.to_string().contains("nearest: radius (0 to 9 px)"), "{error}");
+    let Err(error) = mc().build(&overrides(json!({ "radius": 1 }))) else { panic!("accepted") };
     assert!(error.to_string().contains("it takes none"), "{error}");
+    let wild = Knobs { strength: f64::NAN, ..Knobs::default() };
+    assert_eq!(wild.check().unwrap_err().to_string(), "parameter `strength` is null; allowed: 0 to 1");
 }
 
 #[test]
-fn a_later_entry_replaces_an_earlier_one_in_its_place() {
-    let mine = Entry { summary: "mine", ..KNOBS_ENTRY };
-    let registry = Registry::new(&[KNOBS_ENTRY, MC_ENTRY], &[mine]);
-    let listed: Vec<_> = registry.entries().iter().map(|e| (e.id, e.summary)).collect();
-    assert_eq!(listed, [("knobs", "mine"), ("mc", MC_ENTRY.summary)]);
+fn a_later_method_replaces_an_earlier_one_in_its_place() {
+    let mine = method("knobs", "mine", None, |_: NoParams| Ok(MonteCarlo));
+    let registry = Registry::new([knobs(), mc(), mine]);
+    let listed: Vec<_> = registry.factories().iter().map(|f| (f.id(), f.summary())).collect();
+    assert_eq!(listed, [("knobs", "mine"), ("mc", mc().summary())]);
+}
+
+/// A method that the program learns of while it runs.
+struct Learned {
+    id: String,
+    params: Vec<Param>,
+}
+
+impl Factory for Learned {
+    fn id(&self) -> &str {
+        &self.id
+    }
+
+    fn summary(&self) -> &str {
+        "learned"
+    }
+
+    fn params(&self) -> &[Param] {
+        &self.params
+    }
+
+    fn build(&self, overrides: &Map<String, Value>) -> Result<Box<dyn Denoiser>, BuildError> {
+        check_overrides(&self.id, &self.params, overrides)?;
+        Ok(Box::new(MonteCarlo))
+    }
+
+    fn version(&self, _: &Map<String, Value>) -> Option<String> {
+        Some("7".into())
+    }
+}
+
+#[test]
+fn a_method_known_only_at_run_time_joins() {
+    let id = format!("learned-{}", 7);
+    let params = vec![param::kinds::number(0.0..=2.0).named("gain", "a gain", json!(1.0))];
+    let registry = Registry::new([mc(), Arc::new(Learned { id: id.clone(), params })]);
+    let built = registry.build(&format!("guarded({id})"), &overrides(json!({ "gain": 2.0 }))).unwrap();
+    assert_eq!(built.params, json!({ "gain": 2.0, "guard_level": 0.99 }));
+    assert_eq!(built.version.as_deref(), Some("7"));
+    let error = registry.build(&id, &overrides(json!({ "gain": 3 }))).unwrap_err().to_string();
+    assert_eq!(error, "method `learned-7`: parameter `gain` is 3; allowed: 0 to 2");
 }
 
 #[test]
 fn registry_records_all_parameters_and_passes_the_guards_own_past_the_inner_method() {
-    let registry = Registry::new(&[MC_ENTRY], &[KNOBS_ENTRY]);
+    let registry = Registry::new([mc(), knobs()]);
     let method =
         registry.build("guarded(knobs)", &overrides(json!({ "radius": 7, "guard_level": 0.998 }))).unwrap();
-    assert_eq!(method.params, json!({ "radius": 7, "strength": 0.5, "guard_level": 0.998 }));
+    assert_eq!((&method.params["radius"], &method.params["guard_level"]), (&json!(7), &json!(0.998)));
+    assert_eq!(method.params["strength"], 0.5);
     assert_eq!(method.id, "guarded(knobs)");
     let default = registry.build("guarded(mc)", &Map::new()).unwrap();
     assert_eq!(default.params, json!({ "guard_level": 0.99 }));
@@ -269,7 +345,7 @@ fn stages_are_kept_in_order() {
 
 #[test]
 fn nesting_beyond_the_limit_is_an_error_at_once() {
-    let registry = Registry::new(&[MC_ENTRY], &[]);
+    let registry = Registry::new([mc()]);
     let nested = |levels: usize| format!("{}mc{}", "guarded(".repeat(levels), ")".repeat(levels));
     assert!(registry.build(&nested(Guarded::MOST_LEVELS), &Map::new()).is_ok());
     for levels in [Guarded::MOST_LEVELS + 1, 2000, 100_000] {
@@ -286,7 +362,7 @@ fn nesting_beyond_the_limit_is_an_error_at_once() {
 
 #[test]
 fn names_of_any_length_are_answered_shortly() {
-    let registry = Registry::new(&[MC_ENTRY], &[KNOBS_ENTRY]);
+    let registry = Registry::new([mc(), knobs()]);
     let long = "x".repeat(1 << 20);
     let error = registry.build(&long, &Map::new()).unwrap_err().to_string();
     assert!(error.len() < 400, "{} characters", error.len());

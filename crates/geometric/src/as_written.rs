@@ -1,5 +1,8 @@
+use std::sync::Arc;
+
 use noisefloor_denoiser::{
-    Alternative, DenoiseError, Denoiser, Entry, Input, MethodCard, Need, Output, StageTimer, build_with,
+    Alternative, DenoiseError, Denoiser, Factory, Input, Invariance, MethodCard, Need, Output, ParamError,
+    Parameters, Role, StageTimer, method,
 };
 use noisefloor_frame::{FeatureId, Frame, Image};
 use rayon::prelude::*;
@@ -10,14 +13,12 @@ use crate::{AsWrittenParams, CITATION, Material, radius};
 
 const ID: &str = "geometric-as-written";
 
-/// Registry entry of [`GeometricAsWritten`].
-pub const AS_WRITTEN_ENTRY: Entry = Entry {
-    id: ID,
-    summary: "the same by the letter of its slides, slips included; a fixture, not a baseline",
-    params: AsWrittenParams::DOCS,
-    defaults: || serde_json::to_value(AsWrittenParams::default()).unwrap_or_default(),
-    build: |overrides| build_with(ID, AsWrittenParams::DOCS, overrides, GeometricAsWritten::new),
-};
+/// Factory of [`GeometricAsWritten`].
+#[must_use]
+pub fn geometric_as_written() -> Arc<dyn Factory> {
+    let summary = "the same by the letter of its slides, slips included; a fixture, not a baseline";
+    method(ID, summary, Some(crate::README), GeometricAsWritten::new)
+}
 
 /// The pseudo-code of the slides, literally. Its output has either sign and is of no use as an image.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,9 +30,9 @@ impl GeometricAsWritten {
     /// Validates the parameters.
     ///
     /// # Errors
-    /// The name of the first parameter that is out of range, see [`AsWrittenParams::DOCS`].
-    pub fn new(params: AsWrittenParams) -> Result<Self, &'static str> {
-        params.validate()?;
+    /// The first parameter that is out of range.
+    pub fn new(params: AsWrittenParams) -> Result<Self, ParamError> {
+        params.check()?;
         Ok(Self { params })
     }
 
@@ -45,6 +46,10 @@ impl GeometricAsWritten {
 impl Denoiser for GeometricAsWritten {
     fn card(&self) -> MethodCard {
         let mut card = MethodCard::new(ID, "Geometric, as written", CITATION);
+        card.role = Role::Fixture;
+        let exposure = "the radius is a variance".to_owned();
+        let units = "depths are compared in scene units".to_owned();
+        card.varies_with = vec![(Invariance::Exposure, exposure), (Invariance::FeatureUnits, units)];
         let p = &self.params;
         let material = if p.material_ids { Material::Ids } else { Material::Off };
         card.needs = needs(Tests { material, depth: p.depth_test, normal: p.normal_test });
@@ -77,7 +82,7 @@ impl Denoiser for GeometricAsWritten {
             .flat_map(|(y, row)| row.iter().enumerate().map(move |(x, value)| (x, y, value)))
             .filter(|(_, _, value)| value.is_none());
         if let Some((x, y, _)) = broken.clone().next() {
-            let what = "the weight sum is zero or the result is not finite";
+            let what = "the weight sum is zero or the result is not finite".into();
             return Err(DenoiseError::Undefined { method: ID.into(), what, pixels: broken.count(), x, y });
         }
         let rows: Vec<Vec<_>> = rows.into_iter().map(|row| row.into_iter().flatten().collect()).collect();

@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use noisefloor_denoiser::{
-    Alternative, DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Need, Output, StageTimer,
-    build_with,
+    Alternative, DenoiseError, Denoiser, Diagnostics, Factory, Input, Invariance, MethodCard, Need, Output,
+    ParamError, Parameters, StageTimer, Unit, method,
 };
 use noisefloor_frame::{FeatureId, Image};
 
@@ -10,14 +12,12 @@ use crate::{CITATION, CorrectedParams, FloorUnit, Material, Spread, radius};
 
 const ID: &str = "geometric-corrected";
 
-/// Registry entry of [`GeometricCorrected`].
-pub const CORRECTED_ENTRY: Entry = Entry {
-    id: ID,
-    summary: "cone filter over neighbours of like material, depth and normal, radius from the noise",
-    params: CorrectedParams::DOCS,
-    defaults: || serde_json::to_value(CorrectedParams::default()).unwrap_or_default(),
-    build: |overrides| build_with(ID, CorrectedParams::DOCS, overrides, GeometricCorrected::new),
-};
+/// Factory of [`GeometricCorrected`].
+#[must_use]
+pub fn geometric_corrected() -> Arc<dyn Factory> {
+    let summary = "cone filter over neighbours of like material, depth and normal, radius from the noise";
+    method(ID, summary, Some(crate::README), GeometricCorrected::new)
+}
 
 /// The simple geometric denoiser with its evident slips mended: see the crate documentation.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -29,9 +29,9 @@ impl GeometricCorrected {
     /// Validates the parameters.
     ///
     /// # Errors
-    /// The name of the first parameter that is out of range, see [`CorrectedParams::DOCS`].
-    pub fn new(params: CorrectedParams) -> Result<Self, &'static str> {
-        params.validate()?;
+    /// The first parameter that is out of range.
+    pub fn new(params: CorrectedParams) -> Result<Self, ParamError> {
+        params.check()?;
         Ok(Self { params })
     }
 
@@ -65,11 +65,11 @@ pub(crate) fn describe(output: &mut Output, radii: Vec<f32>, input: &Input<'_>) 
     let (width, height) = (input.target.width(), input.target.height());
     let mean = radii.iter().map(|&r| f64::from(r)).sum::<f64>() / radii.len() as f64; // an image is never empty
     let largest = radii.iter().copied().fold(0.0, f32::max);
-    output.figures.push(("mean kernel radius, px".into(), mean));
-    output.figures.push(("largest kernel radius, px".into(), f64::from(largest)));
+    output.figure("mean kernel radius, px", Unit::Pixels, mean);
+    output.figure("largest kernel radius, px", Unit::Pixels, f64::from(largest));
     if input.diagnostics != Diagnostics::Off {
         let image = Image::from_vec(width, height, 1, radii).expect("one radius per pixel");
-        output.diagnostics.push(("kernel radius".into(), image));
+        output.diagnose("kernel radius", Unit::Pixels, image);
     }
 }
 
@@ -87,6 +87,10 @@ impl Denoiser for GeometricCorrected {
             card.alternatives.push(other.asking([Need::Feature(asks)]));
         }
         card.claims.consistent = self.params.spread != Spread::SampleVariance;
+        let relative = self.params.spread == Spread::Relative && self.params.floor_unit == FloorUnit::Median;
+        if !relative {
+            card.varies_with.push((Invariance::Exposure, "the radius is in radiance".into()));
+        }
         card.notes.push(match self.params.spread {
             Spread::SampleVariance => {
                 "radius from the variance of one sample: depends on exposure, never shrinks, not consistent"

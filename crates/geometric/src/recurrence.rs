@@ -9,27 +9,23 @@
 //! | corrected, d from the previous mean | σ²(N − 1 + H_{N−1})/N: too high |
 //! | corrected, product of both d (Welford) | σ²(N − 1)/N: the population variance |
 
-use serde::{Deserialize, Serialize};
+use noisefloor_denoiser::choices;
 
-/// Which variance a running estimate of the slides' kind converges to on average.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Recurrence {
-    /// s² with divisor N−1: Welford.
-    Unbiased,
-    /// Divisor N: the slides' two-pass definition, and the corrected recurrence with the product of both distances.
-    Population,
-    /// Corrected recurrence, squared distance from the mean that contains the sample.
-    UpdatedMean,
-    /// Corrected recurrence, squared distance from the mean before the sample.
-    PreviousMean,
+choices! {
+    /// Which variance a running estimate of the slides' kind converges to on average.
+    pub enum Recurrence {
+        /// s² with divisor N−1: Welford.
+        Unbiased = "unbiased",
+        /// Divisor N: the slides' two-pass definition, and the corrected recurrence with the product of both distances.
+        Population = "population",
+        /// Corrected recurrence, squared distance from the mean that contains the sample.
+        UpdatedMean = "updated-mean",
+        /// Corrected recurrence, squared distance from the mean before the sample.
+        PreviousMean = "previous-mean",
+    }
 }
 
 impl Recurrence {
-    pub(crate) const RANGE: &'static str = "unbiased | population | updated-mean | previous-mean";
-    pub(crate) const ABOUT: &'static str =
-        "which running variance the unbiased one is scaled to, by its expected value at n samples";
-
     /// Expected value after `n` samples, as a multiple of the true variance σ²; 0 for n = 0, and 0 for n = 1 except
     /// under `Unbiased`, whose factor is 1 wherever it is defined.
     #[must_use]

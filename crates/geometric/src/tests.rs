@@ -1,4 +1,4 @@
-use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostics, Input, Need};
+use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostic, Diagnostics, Input, Need};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Moments, Samples, Sampling, Variance};
 
 use crate::*;
@@ -439,14 +439,14 @@ fn parameters_out_of_range_are_named() {
         change(&mut params);
         GeometricCorrected::new(params).unwrap_err()
     };
-    assert_eq!(bad(|p| p.multiplier = -1.0), "multiplier");
-    assert_eq!(bad(|p| p.pixels_per_error = f64::NAN), "pixels_per_error");
-    assert_eq!(bad(|p| p.luminance_floor = 0.0), "luminance_floor");
-    assert_eq!(bad(|p| p.albedo_threshold = 1.5), "albedo_threshold");
-    assert_eq!(bad(|p| p.radius_max_px = 65.0), "radius_max_px");
-    assert_eq!(bad(|p| p.normal_threshold = 1.1), "normal_threshold");
+    assert_eq!(bad(|p| p.multiplier = -1.0).parameter, "multiplier");
+    assert_eq!(bad(|p| p.pixels_per_error = f64::NAN).parameter, "pixels_per_error");
+    assert_eq!(bad(|p| p.luminance_floor = 0.0).parameter, "luminance_floor");
+    assert_eq!(bad(|p| p.albedo_threshold = 1.5).parameter, "albedo_threshold");
+    assert_eq!(bad(|p| p.radius_max_px = 65.0).parameter, "radius_max_px");
+    assert_eq!(bad(|p| p.normal_threshold = 1.1).parameter, "normal_threshold");
     let literal = AsWrittenParams { depth_threshold: -0.1, ..AsWrittenParams::default() };
-    assert_eq!(GeometricAsWritten::new(literal).unwrap_err(), "depth_threshold");
+    assert_eq!(GeometricAsWritten::new(literal).unwrap_err().parameter, "depth_threshold");
 }
 
 #[test]
@@ -458,8 +458,9 @@ fn diagnostics_show_the_kernel_radius() {
     let input = Input::new(&f).with_diagnostics(Diagnostics::On { probe: None });
     let full = method.denoise(&input).unwrap();
     assert_eq!(full.image, plain.image);
-    let (name, radius) = &full.diagnostics[0];
+    let Diagnostic { name, image: radius, .. } = &full.diagnostics[0];
     assert_eq!(name, "kernel radius");
     let largest = radius.data().iter().copied().fold(0.0, f32::max);
-    assert!(plain.figures.contains(&("largest kernel radius, px".into(), f64::from(largest))));
+    let told = plain.figures.iter().find(|f| f.name == "largest kernel radius, px").unwrap();
+    assert_eq!(told.value, f64::from(largest));
 }

@@ -4,7 +4,7 @@ mod blocks;
 mod estimate;
 mod ratio;
 
-use noisefloor_denoiser::Claim;
+use noisefloor_denoiser::{Bound, Claim};
 use noisefloor_frame::{Counts, Frame, Image, Reference, Sampling, Variance};
 use noisefloor_render::Integrator;
 use noisefloor_stats::{
@@ -164,36 +164,50 @@ impl<'a> Measure<'a> {
         let Some(observed) = self.intervals() else { return Ok(Vec::new()) };
         let mut out = Vec::new();
         for claim in claims {
-            let bound = stats::half_widths(&observed, &claim.terms)?;
-            let count = |observed: &Observed<'_>, groups: Groups<'_>| {
-                stats::bound_violations(
-                    image.data(),
-                    &bound,
-                    observed,
-                    &self.truth,
-                    claim.level,
-                    Some(groups),
-                )
-            };
-            let tallies = count(&observed, self.groups())?;
-            for (index, (class, tally)) in
-                self.names().zip(tallies).enumerate().filter(|(_, (_, t))| t.total > 0)
-            {
-                out.push(BoundCount {
-                    claim: claim.name.into(),
-                    proven: claim.proven,
-                    alpha: claim.level.alpha(),
-                    class: class.to_owned(),
-                    total: tally.total,
-                    violations: tally.violations,
-                    violations_uncorrected: tally.violations_uncorrected,
-                    violations_missed: tally.violations_missed,
-                    mean_ratio: tally.mean_ratio(),
-                    within_se: self.within(index, count, |t: &BoundTally| (t.violations, t.total)),
-                });
-            }
+            let widths = stats::half_widths(&observed, &claim.terms)?;
+            out.extend(self.leaves(image, &observed, &widths, (&claim.name, claim.level, claim.proven))?);
         }
         Ok(out)
+    }
+
+    /// How often an output leaves each bound that the method stated for it; whoever states one answers for the sampling.
+    pub(crate) fn own_bounds(&self, image: &Image, stated: &[Bound]) -> Result<Vec<BoundCount>, ShapeError> {
+        let Some(observed) = self.observed() else { return Ok(Vec::new()) };
+        let mut out = Vec::new();
+        for bound in stated {
+            let widths: Vec<f64> = bound.half_width.data().iter().copied().map(f64::from).collect();
+            out.extend(self.leaves(image, &observed, &widths, (&bound.name, bound.level, false))?);
+        }
+        Ok(out)
+    }
+
+    /// How often an output leaves one bound of these half-widths, per class.
+    fn leaves(
+        &self,
+        image: &Image,
+        observed: &Observed<'_>,
+        widths: &[f64],
+        (name, level, proven): (&str, Level, bool),
+    ) -> Result<Vec<BoundCount>, ShapeError> {
+        let count = |observed: &Observed<'_>, groups: Groups<'_>| {
+            stats::bound_violations(image.data(), widths, observed, &self.truth, level, Some(groups))
+        };
+        let tallies = count(observed, self.groups())?;
+        let present = self.names().zip(tallies).enumerate().filter(|(_, (_, tally))| tally.total > 0);
+        Ok(present
+            .map(|(index, (class, tally))| BoundCount {
+                claim: name.to_owned(),
+                proven,
+                alpha: level.alpha(),
+                class: class.to_owned(),
+                total: tally.total,
+                violations: tally.violations,
+                violations_uncorrected: tally.violations_uncorrected,
+                violations_missed: tally.violations_missed,
+                mean_ratio: tally.mean_ratio(),
+                within_se: self.within(index, count, |t: &BoundTally| (t.violations, t.total)),
+            })
+            .collect())
     }
 
     /// The certain half of each claim. Holds for any sampling, because it compares the output with its own input.
@@ -207,7 +221,11 @@ impl<'a> Measure<'a> {
         let check = |claim: &Claim| {
             let widths = stats::half_widths(&everywhere, &claim.terms)?;
             let found = stats::enclosure(image.data(), &widths, &everywhere)?;
-            Ok(EnclosureCheck { claim: claim.name.into(), worst_ratio: found.worst_ratio, held: found.held })
+            Ok(EnclosureCheck {
+                claim: claim.name.to_string(),
+                worst_ratio: found.worst_ratio,
+                held: found.held,
+            })
         };
         claims.iter().map(check).collect()
     }

@@ -134,15 +134,18 @@ pub struct Record {
     /// Diagnostic images, name to path relative to the study's folder.
     #[serde(default)]
     pub diagnostics: BTreeMap<String, String>,
-    /// Path of each of these images to the hash of its file, so that a damaged one is found.
+    /// What a program outside said while it ran: path relative to the study's folder.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub log: Option<String>,
+    /// Path of each of these files to its hash, so that a damaged one is found.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub files: BTreeMap<String, String>,
 }
 
 impl Record {
-    /// The cell's image and diagnostic images, relative to the study's folder.
+    /// The cell's image, diagnostic images and log, relative to the study's folder.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
-        self.image.iter().chain(self.diagnostics.values()).map(String::as_str)
+        self.image.iter().chain(self.diagnostics.values()).chain(&self.log).map(String::as_str)
     }
 }
 
@@ -259,6 +262,9 @@ pub struct Seconds {
     pub render: Option<f64>,
     /// Denoising: median of `denoise_runs`.
     pub denoise: Option<f64>,
+    /// Beside them: starting a program and its files, where the method says what it computed for itself; median.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub around: Option<f64>,
     /// All timed runs after the warm-up.
     #[serde(default)]
     pub denoise_runs: Vec<f64>,

@@ -99,10 +99,17 @@ impl Layout {
         format!("diagnostics/{scene}/{slug}/spp{spp:05}-r{replicate}-{name}.exr")
     }
 
+    /// What a program outside said, relative.
+    pub(crate) fn log(scene: &str, slug: &str, spp: u32, replicate: u32) -> String {
+        format!("logs/{scene}/{slug}/spp{spp:05}-r{replicate}.txt")
+    }
+
     /// Removes what killed processes left half written in the folders of a study, and nothing in others that stand beside
     /// them; for whoever holds the lock.
     pub(crate) fn sweep(&self) {
-        for (folder, depth) in [("", 0), ("reference", 0), ("images", 2), ("diagnostics", 2), ("report", 1)] {
+        let folders =
+            [("", 0), ("reference", 0), ("images", 2), ("diagnostics", 2), ("logs", 2), ("report", 1)];
+        for (folder, depth) in folders {
             sweep(&self.root.join(folder), depth, Duration::ZERO);
         }
     }

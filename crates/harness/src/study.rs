@@ -7,6 +7,7 @@ mod limits;
 mod of_scene;
 mod parse;
 mod plain;
+mod rows;
 mod sequence;
 mod shot;
 

@@ -41,6 +41,14 @@ pub enum IoError {
         /// File.
         file: PathBuf,
     },
+    /// A portable float map was expected.
+    #[error("{file}: not a portable float map: {what}")]
+    NotPfm {
+        /// File.
+        file: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
     /// The file ends before its contents do.
     #[error("{file}: the file is truncated: {what}")]
     Truncated {

@@ -29,6 +29,7 @@ mod folder;
 mod layers;
 mod limits;
 mod names;
+mod pfm;
 mod read;
 mod window;
 mod write;
@@ -38,6 +39,7 @@ pub use destination::{Destination, same_file};
 pub use error::IoError;
 pub use folder::{FolderFrame, FrameFolder, scan_scenes};
 pub use limits::MAX_DECODED_BYTES;
+pub use pfm::{read_pfm, write_pfm};
 pub use read::{
     FileInfo, FileOrigin, FrameFile, ReadOptions, read_attributes, read_checked_frame,
     read_checked_reference, read_color, read_frame, read_frame_file, read_image, read_info, read_origin,

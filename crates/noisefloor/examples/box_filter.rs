@@ -11,22 +11,15 @@
 use std::process::ExitCode;
 
 use noisefloor::{
-    Citation, DenoiseError, Denoiser, Entry, Image, Input, MethodCard, Output, ParamDoc, StageTimer,
-    build_with,
+    Citation, DenoiseError, Denoiser, Image, Input, MethodCard, Output, ParamError, Parameters, StageTimer,
+    method, parameters,
 };
-use serde::{Deserialize, Serialize};
 
-/// Parameters, each with its default; unknown names are refused.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Params {
-    /// Half the window's side in pixels, 0 to 32.
-    radius_px: usize,
-}
-
-impl Default for Params {
-    fn default() -> Self {
-        Self { radius_px: 1 }
+parameters! {
+    /// One table: names, defaults, ranges and texts of checks, help and lists come from here.
+    struct Params {
+        /// Half the window's side.
+        radius_px: usize = 1, integer(0..=32).unit("px").symbol("r");
     }
 }
 
@@ -37,8 +30,9 @@ struct BoxFilter {
 
 impl BoxFilter {
     /// Checks the parameters once: an error names the offending one.
-    fn new(params: Params) -> Result<Self, &'static str> {
-        if params.radius_px > 32 { Err("radius_px") } else { Ok(Self { params }) }
+    fn new(params: Params) -> Result<Self, ParamError> {
+        params.check()?;
+        Ok(Self { params })
     }
 }
 
@@ -47,7 +41,7 @@ impl Denoiser for BoxFilter {
         let mut card = MethodCard::new(
             "box-filter",
             "Box filter",
-            Citation { key: "example", text: "the simplest filter there is" },
+            Citation::new("example", "the simplest filter there is"),
         );
         card.notes.push("blurs everything, consistent for no window wider than a pixel".into());
         card
@@ -77,17 +71,6 @@ impl Denoiser for BoxFilter {
     }
 }
 
-const PARAMS: &[ParamDoc] =
-    &[ParamDoc { name: "radius_px", range: "0..=32 pixels", about: "half the window's side" }];
-
-const BOX_FILTER: Entry = Entry {
-    id: "box-filter",
-    summary: "mean over a square window",
-    params: PARAMS,
-    defaults: || serde_json::to_value(Params::default()).unwrap_or_default(),
-    build: |overrides| build_with("box-filter", PARAMS, overrides, BoxFilter::new),
-};
-
 fn main() -> ExitCode {
-    noisefloor::main_with(&[BOX_FILTER])
+    noisefloor::main_with([method("box-filter", "mean over a square window", None, BoxFilter::new)])
 }

@@ -2,23 +2,18 @@
 //!
 //! # Bring a denoiser
 //!
-//! Write your method in a crate of your own: implement [`Denoiser`], describe its parameters in an [`Entry`], and
-//! hand that to [`main_with`]. The program that results is the whole `noisefloor` command with your method in every
-//! list, study and report:
+//! Write your method in a crate of your own: implement [`Denoiser`], declare its parameters with [`parameters!`], and hand
+//! its factory ([`method()`]) to [`main_with`]. The program that results is the whole `noisefloor` command with your method in
+//! every list, study and report:
 //!
 //! ```no_run
-//! use noisefloor::{Citation, DenoiseError, Denoiser, Entry, Input, MethodCard, Output, build_with};
-//! use serde::{Deserialize, Serialize};
-//!
-//! #[derive(Debug, Clone, Default, Serialize, Deserialize)]
-//! #[serde(deny_unknown_fields)]
-//! struct Params {}
+//! use noisefloor::{Citation, DenoiseError, Denoiser, Input, MethodCard, NoParams, Output, method};
 //!
 //! struct Mine;
 //!
 //! impl Denoiser for Mine {
 //!     fn card(&self) -> MethodCard {
-//!         MethodCard::new("mine", "My method", Citation { key: "me2026", text: "unpublished" })
+//!         MethodCard::new("mine", "My method", Citation::new("me2026", "unpublished"))
 //!     }
 //!     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
 //!         input.check(&self.card())?;
@@ -26,26 +21,20 @@
 //!     }
 //! }
 //!
-//! const MINE: Entry = Entry {
-//!     id: "mine",
-//!     summary: "does nothing yet",
-//!     params: &[],
-//!     defaults: || serde_json::json!({}),
-//!     build: |overrides| build_with("mine", &[], overrides, |_: Params| Ok(Mine)),
-//! };
-//!
 //! fn main() -> std::process::ExitCode {
-//!     noisefloor::main_with(&[MINE])
+//!     noisefloor::main_with([method("mine", "does nothing yet", None, |_: NoParams| Ok(Mine))])
 //! }
 //! ```
 //!
-//! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims.
+//! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims. What is known only at
+//! run time implements [`Factory`] itself.
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
-    Alternative, Bound, BuildError, Citation, Claim, Claims, DenoiseError, Denoiser, Diagnostics, Entry,
-    Guarded, Input, Method, MethodCard, Need, Output, ParamDoc, Registry, Setting, StageSeconds, StageTimer,
-    build_with, params_from,
+    Adaptive, Alternative, Bound, BuildError, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser,
+    Diagnostic, Diagnostics, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard, Need,
+    NoParams, Output, Param, ParamError, Parameters, Registry, Setting, StageSeconds, StageTimer, Unit,
+    choices, method, parameters,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,

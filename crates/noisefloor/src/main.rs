@@ -1,5 +1,5 @@
 //! The `noisefloor` command with the built-in methods.
 
 fn main() -> std::process::ExitCode {
-    noisefloor::main_with(&[])
+    noisefloor::main_with([])
 }

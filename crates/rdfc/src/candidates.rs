@@ -3,13 +3,13 @@
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::nlm::{NlmInputs, Pass, Perturbation, Planes, filter};
+use noisefloor_toolbox::mean_of_halves;
 
 use crate::kernel;
 use crate::prepare::Prepared;
 use crate::selection::Choice;
 use crate::settings::{FLOOR, LOW_FLOOR, Settings};
 use crate::sure::sure;
-use crate::variance::mean_of_halves;
 
 /// Step of the finite difference over the value.
 const STEP: f32 = 0.01;

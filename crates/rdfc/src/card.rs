@@ -1,6 +1,6 @@
 //! What the method needs and what may be said of it.
 
-use noisefloor_denoiser::{Citation, MethodCard, Need};
+use noisefloor_denoiser::{Citation, Cost, MethodCard, Need, Role};
 use noisefloor_frame::FeatureId;
 
 use crate::params::Profile;
@@ -9,11 +9,11 @@ use crate::settings::Settings;
 use crate::{Params, SecondPass};
 
 /// The source work.
-pub const CITATION: Citation = Citation {
-    key: "rousselle2013rdfc",
-    text: "F. Rousselle, M. Manzi, M. Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics \
+pub const CITATION: Citation = Citation::new(
+    "rousselle2013rdfc",
+    "F. Rousselle, M. Manzi, M. Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics \
            Forum 32(7), 2013",
-};
+);
 
 pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCard {
     let mut name = String::from(match only {
@@ -28,6 +28,10 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
         Profile::Best => "",
     });
     let mut card = MethodCard::new(id, name, CITATION);
+    card.cost = Cost::TenSeconds;
+    if only.is_some() {
+        card.role = Role::Part;
+    }
     card.needs = vec![Need::ColorVariance, Need::ColorHalves, Need::Samples(2)];
     for name in &params.features {
         card.uses.push(Need::Feature(FeatureId::from_name(name)));

@@ -1,6 +1,6 @@
 //! What the figures of the source work show.
 
-use noisefloor_denoiser::Output;
+use noisefloor_denoiser::{Output, Unit};
 use noisefloor_frame::Image;
 
 use crate::candidates::Candidate;
@@ -20,12 +20,14 @@ pub(crate) fn name(choice: Choice) -> &'static str {
 
 /// Adds the prefiltered features with their residual variances and the colour's variance (Fig. 3).
 pub(crate) fn describe_inputs(output: &mut Output, target: &Prepared<'_>) {
-    output.diagnostics.push(("variance of the colour".into(), target.variance.clone()));
+    output.diagnose("variance of the colour", Unit::RadianceSquared, target.variance.clone());
     for feature in &target.features {
-        output.diagnostics.push((format!("feature {}, prefiltered", feature.name), three(&feature.mean)));
-        output
-            .diagnostics
-            .push((format!("feature {}, residual variance", feature.name), three(&feature.variance)));
+        output.diagnose(format!("feature {}, prefiltered", feature.name), Unit::None, three(&feature.mean));
+        output.diagnose(
+            format!("feature {}, residual variance", feature.name),
+            Unit::None,
+            three(&feature.variance),
+        );
     }
 }
 
@@ -33,16 +35,20 @@ pub(crate) fn describe_inputs(output: &mut Output, target: &Prepared<'_>) {
 pub(crate) fn describe_choice(output: &mut Output, candidates: &[Candidate], pass: &FirstPass) {
     for (k, (choice, candidate)) in Choice::ALL.into_iter().zip(candidates).enumerate() {
         let name = name(choice);
-        output.diagnostics.push((format!("candidate {name}"), candidate.mean.clone()));
-        output.diagnostics.push((format!("error estimate {name}"), three(&sum_of_channels(&candidate.sure))));
+        output.diagnose(format!("candidate {name}"), Unit::Radiance, candidate.mean.clone());
+        output.diagnose(
+            format!("error estimate {name}"),
+            Unit::RadianceSquared,
+            three(&sum_of_channels(&candidate.sure)),
+        );
         let filtered = pass.errors.plane(k).to_vec();
         let filtered = Image::from_vec(pass.errors.width(), pass.errors.height(), 1, filtered);
         let filtered = filtered.expect("one value per pixel");
-        output.diagnostics.push((format!("error estimate {name}, filtered"), three(&filtered)));
+        output.diagnose(format!("error estimate {name}, filtered"), Unit::RadianceSquared, three(&filtered));
     }
-    output.diagnostics.push(("selection, binary".into(), pass.binary.clone()));
-    output.diagnostics.push(("selection".into(), pass.weights.clone()));
-    output.diagnostics.push(("first pass".into(), pass.mean.clone()));
+    output.diagnose("selection, binary", Unit::None, pass.binary.clone());
+    output.diagnose("selection", Unit::None, pass.weights.clone());
+    output.diagnose("first pass", Unit::Radiance, pass.mean.clone());
 }
 
 /// Adds the share of the image that each candidate has.
@@ -51,7 +57,7 @@ pub(crate) fn figures(output: &mut Output, pass: &FirstPass) {
         let plane = pass.weights.plane(choice.index());
         // An image has at least one pixel.
         let share = plane.iter().copied().map(f64::from).sum::<f64>() / plane.len() as f64;
-        output.figures.push((format!("share of {}", name(choice)), share));
+        output.figure(format!("share of {}", name(choice)), Unit::None, share);
     }
 }
 

@@ -3,13 +3,12 @@
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Estimate, Far, FeatureId, Frame, Image, Sampling, UnitRange};
 use noisefloor_kernels::nlm::{FeatureChannel, MAX_VARIANCE, NlmParams};
-use rayon::prelude::*;
+use noisefloor_toolbox::{Slope, mean_of_halves, scaled_sample_variance, smoothed_half_variance};
 
 use crate::VarianceScaling;
 use crate::kernel::{self, within_range};
 use crate::params::Gradient;
 use crate::settings::Settings;
-use crate::variance::{mean_of_halves, scaled_sample_variance, smoothed_half_variance};
 
 /// A feature ready to make weights from.
 #[derive(Debug, Clone)]
@@ -59,10 +58,10 @@ pub(crate) fn prefilter(
     let sampled = variance.map(|v| v.into_mean_variance().map(|v| v.min(MAX_VARIANCE)));
     let variance = match (&sampled, &halves) {
         (Some(variance), Some(halves)) if scales(settings.scaling, frame.sampling) => {
-            scaled_sample_variance(variance, halves, &frame.samples)
+            scaled_sample_variance(variance, halves, &frame.samples, MAX_VARIANCE)
         }
         (Some(variance), _) => variance.clone(),
-        (None, Some(halves)) => smoothed_half_variance(halves, &frame.samples),
+        (None, Some(halves)) => smoothed_half_variance(halves, &frame.samples, MAX_VARIANCE),
         // Nothing is known of its noise: taken as it is.
         (None, None) => Image::new(mean.width(), mean.height(), mean.channels()),
     };
@@ -75,7 +74,10 @@ pub(crate) fn prefilter(
             let targets = kernel::half_planes(halves);
             let filtered = kernel::filter_guided(method, &params, own.patch, guide, targets)?;
             let halves = kernel::halves(&filtered.planes, width, height);
-            (mean_of_halves(&halves, &frame.samples), smoothed_half_variance(&halves, &frame.samples))
+            (
+                mean_of_halves(&halves, &frame.samples),
+                smoothed_half_variance(&halves, &frame.samples, MAX_VARIANCE),
+            )
         }
         _ => (mean, variance),
     };
@@ -95,37 +97,10 @@ pub(crate) fn scales(scaling: VarianceScaling, sampling: Sampling) -> bool {
 
 /// Squared gradient magnitude per channel.
 pub(crate) fn squared_slope(image: &Image, rule: Gradient) -> Image {
-    let (width, height) = (image.width(), image.height());
-    let mut out = Image::new(width, height, image.channels());
-    if rule == Gradient::Off {
-        return out;
-    }
-    for c in 0..image.channels() {
-        let from = image.plane(c);
-        out.plane_mut(c).par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-            for (x, value) in row.iter_mut().enumerate() {
-                let p = y * width + x;
-                let at = |inside: bool, q: usize| if inside { Some(from[q]) } else { None };
-                let left = at(x > 0, p.wrapping_sub(1));
-                let right = at(x + 1 < width, p + 1);
-                let above = at(y > 0, p.wrapping_sub(width));
-                let below = at(y + 1 < height, p + width);
-                let square = slope(left, from[p], right, rule) + slope(above, from[p], below, rule);
-                *value = square.min(MAX_VARIANCE);
-            }
-        });
-    }
-    out
-}
-
-/// Squared slope along one axis.
-fn slope(before: Option<f32>, here: f32, after: Option<f32>, rule: Gradient) -> f32 {
-    let square = |d: f32| d * d;
-    match (rule, before, after) {
-        (Gradient::Off, ..) | (_, None, None) => 0.0,
-        (Gradient::MinHalf, Some(a), Some(b)) => square(0.5 * (a - here)).min(square(0.5 * (b - here))),
-        (Gradient::MinHalf, ..) => 0.0,
-        (Gradient::Central, Some(a), Some(b)) => square(0.5 * (b - a)),
-        (Gradient::Central, Some(a), None) | (Gradient::Central, None, Some(a)) => square(a - here),
-    }
+    let rule = match rule {
+        Gradient::Off => return Image::new(image.width(), image.height(), image.channels()),
+        Gradient::MinHalf => Slope::MinHalf,
+        Gradient::Central => Slope::Central,
+    };
+    noisefloor_toolbox::squared_slope(image, rule, MAX_VARIANCE)
 }

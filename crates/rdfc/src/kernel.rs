@@ -51,10 +51,5 @@ pub(crate) fn within_range(image: Image) -> Image {
 
 /// The engine refuses what was checked before it ran; should it find more, its message is kept.
 pub(crate) fn kernel_error(method: &str, error: &NlmError) -> DenoiseError {
-    DenoiseError::Parameter {
-        method: method.into(),
-        parameter: "kernel input",
-        value: error.to_string(),
-        allowed: "what the kernel's documentation says".into(),
-    }
+    DenoiseError::of_kernel(method, error)
 }

@@ -4,7 +4,6 @@ mod candidates;
 mod card;
 mod density;
 mod diagnostics;
-mod exposure;
 mod features;
 mod first_pass;
 mod kernel;
@@ -15,19 +14,17 @@ mod second_pass;
 mod selection;
 mod settings;
 mod sure;
-mod variance;
 
 #[cfg(test)]
 mod tests;
 
 pub use card::CITATION;
-pub use method::{ENTRY, FIRST_ENTRY, Rdfc, SECOND_ENTRY, THIRD_ENTRY};
+pub use method::{Rdfc, methods};
 pub use params::{
     CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, Gradient,
     Params, Profile, SecondPass, Ties, VarianceScaling,
 };
 pub use selection::{Choice, select};
-pub use variance::{box_mean, scaled_sample_variance, smoothed_half_variance};
 
 /// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.
 pub const README: &str = include_str!("../README.md");

@@ -1,13 +1,15 @@
+use std::sync::Arc;
+
 use noisefloor_denoiser::{
-    Adaptive, DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Output, StageTimer, build_with,
+    Adaptive, DenoiseError, Denoiser, Diagnostics, Exposed, Factory, Input, MethodCard, Output, ParamError,
+    Parameters, StageTimer, Unit, method,
 };
-use noisefloor_frame::{Frame, Image};
-use noisefloor_kernels::nlm::MAX_PIXELS;
+use noisefloor_frame::Image;
+use noisefloor_kernels::nlm::{MAX_PIXELS, MIN_EPSILON};
 
 use crate::candidates::{Candidate, Wanted, candidates};
 use crate::density;
 use crate::diagnostics::{describe_choice, describe_inputs, figures};
-use crate::exposure::Exposed;
 use crate::features::usable;
 use crate::first_pass::first_pass;
 use crate::kernel::within_range;
@@ -17,38 +19,22 @@ use crate::selection::Choice;
 use crate::settings::Settings;
 use crate::{Density, Params, SecondPass, card};
 
-macro_rules! entry {
-    ($(#[$doc:meta])* $name:ident, $id:literal, $only:expr, $summary:literal) => {
-        $(#[$doc])*
-        pub const $name: Entry = Entry {
-            id: $id,
-            summary: $summary,
-            params: Params::DOCS,
-            defaults: || serde_json::to_value(Params::default()).unwrap_or_default(),
-            build: |overrides| build_with($id, Params::DOCS, overrides, |params| Rdfc::with($id, $only, params)),
-        };
+/// Factories of the whole method and of its three candidates.
+#[must_use]
+pub fn methods() -> [Arc<dyn Factory>; 4] {
+    let one = |id: &'static str, only, summary: &str| {
+        method(id, summary, Some(crate::README), move |params| Rdfc::with(id, only, params))
     };
-}
-
-entry! {
-    /// Registry entry of the whole method.
-    ENTRY, "rdfc", None,
-    "three filters by colour and features, chosen per pixel by an unbiased risk estimate"
-}
-entry! {
-    /// Registry entry of the FIRST candidate.
-    FIRST_ENTRY, "rdfc-first", Some(Choice::First),
-    "colour in 3×3 patches and features: keeps small detail"
-}
-entry! {
-    /// Registry entry of the SECOND candidate.
-    SECOND_ENTRY, "rdfc-second", Some(Choice::Second),
-    "colour in 7×7 patches and features: robust to noise"
-}
-entry! {
-    /// Registry entry of the THIRD candidate.
-    THIRD_ENTRY, "rdfc-third", Some(Choice::Third),
-    "features alone: blind to what the colour shows"
+    [
+        one(
+            "rdfc",
+            None,
+            "three filters by colour and features, chosen per pixel by an unbiased risk estimate",
+        ),
+        one("rdfc-first", Some(Choice::First), "colour in 3×3 patches and features: keeps small detail"),
+        one("rdfc-second", Some(Choice::Second), "colour in 7×7 patches and features: robust to noise"),
+        one("rdfc-third", Some(Choice::Third), "features alone: blind to what the colour shows"),
+    ]
 }
 
 /// The method of Rousselle et al. 2013, or one of its candidate filters: see the crate documentation.
@@ -64,8 +50,8 @@ impl Rdfc {
     /// The whole method.
     ///
     /// # Errors
-    /// The name of the first parameter that is out of range, see [`Params::DOCS`].
-    pub fn new(params: Params) -> Result<Self, &'static str> {
+    /// The first parameter that is out of range.
+    pub fn new(params: Params) -> Result<Self, ParamError> {
         Self::with("rdfc", None, params)
     }
 
@@ -73,7 +59,7 @@ impl Rdfc {
     ///
     /// # Errors
     /// As [`Rdfc::new`].
-    pub fn candidate(choice: Choice, params: Params) -> Result<Self, &'static str> {
+    pub fn candidate(choice: Choice, params: Params) -> Result<Self, ParamError> {
         let id = match choice {
             Choice::First => "rdfc-first",
             Choice::Second => "rdfc-second",
@@ -82,8 +68,8 @@ impl Rdfc {
         Self::with(id, Some(choice), params)
     }
 
-    fn with(id: &'static str, only: Option<Choice>, params: Params) -> Result<Self, &'static str> {
-        params.validate()?;
+    fn with(id: &'static str, only: Option<Choice>, params: Params) -> Result<Self, ParamError> {
+        params.check()?;
         let settings = Settings::new(&params);
         Ok(Self { id, only, params, settings })
     }
@@ -102,7 +88,7 @@ impl Rdfc {
         wanted: Wanted,
         timer: &mut StageTimer,
     ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
-        check_size(self.id, input.target)?;
+        DenoiseError::refuse_size(self.id, input.target, MAX_PIXELS)?;
         // All frames are brought to the target's units.
         let features = usable(input.target, &self.params.features, self.settings.far);
         let prepare = |frame, timer: &mut StageTimer| {
@@ -161,7 +147,7 @@ impl Rdfc {
             // An image has at least one value.
             let values = estimate.data();
             let mean = values.iter().copied().map(f64::from).sum::<f64>() / values.len() as f64;
-            output.figures.push(("mean error estimate".into(), mean));
+            output.figure("mean error estimate", Unit::RadianceSquared, mean);
         }
         if diagnostics {
             describe_inputs(&mut output, &target);
@@ -201,8 +187,8 @@ impl Denoiser for Rdfc {
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         input.check(&self.card())?;
         let input = &self.in_use(input);
-        let exposed = Exposed::new(input);
-        let mut output = self.filter(&exposed.input(input), exposed.epsilon())?;
+        let exposed = Exposed::new(input, BRIGHT);
+        let mut output = self.filter(&exposed.input(input), epsilon(&exposed))?;
         exposed.undo(&mut output);
         Ok(output)
     }
@@ -218,10 +204,10 @@ impl Adaptive for Rdfc {
         let input = &self.in_use(input);
         let wanted = Wanted { halves: false, counts: true };
         // A density has no unit.
-        let exposed = Exposed::new(input);
+        let exposed = Exposed::new(input, BRIGHT);
         let mut timer = StageTimer::start();
         let (target, candidates) =
-            self.start(&exposed.input(input), exposed.epsilon(), wanted, &mut timer)?;
+            self.start(&exposed.input(input), epsilon(&exposed), wanted, &mut timer)?;
         if self.settings.density != Density::Text {
             return density::code(self.id, &target, &candidates[0], &self.settings);
         }
@@ -233,14 +219,12 @@ impl Adaptive for Rdfc {
     }
 }
 
-fn check_size(method: &str, frame: &Frame) -> Result<(), DenoiseError> {
-    if frame.pixels() <= MAX_PIXELS {
-        return Ok(());
-    }
-    Err(DenoiseError::Parameter {
-        method: method.into(),
-        parameter: "image size",
-        value: format!("{} pixels", frame.pixels()),
-        allowed: format!("at most {MAX_PIXELS}"),
-    })
+/// Largest value that goes to the engine. Its square and that times 10⁶ are within the engine's range.
+const BRIGHT: f32 = 1e12;
+/// ε of the text (Sec. 4), for frames of a median luminance between ¼ and ½.
+const EPSILON: f64 = 1e-10;
+
+/// ε at the exposure of a frame, above 0.
+fn epsilon(exposed: &Exposed) -> f32 {
+    (EPSILON * exposed.left().powi(2)).max(f64::from(MIN_EPSILON)) as f32
 }

@@ -3,11 +3,11 @@
 use noisefloor_denoiser::{DenoiseError, StageTimer};
 use noisefloor_frame::{FeatureId, Frame, Image, UnitRange, Variance};
 use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, NlmParams, Planes};
+use noisefloor_toolbox::scaled_sample_variance;
 
 use crate::features::{Feature, prefilter, scales};
 use crate::kernel;
 use crate::settings::Settings;
-use crate::variance::scaled_sample_variance;
 
 /// A frame with variances at the right level and its features prefiltered.
 #[derive(Debug)]
@@ -54,7 +54,7 @@ impl<'a> Prepared<'a> {
             }
         }
         let variance = if scales(settings.scaling, frame.sampling) {
-            scaled_sample_variance(sampled, halves, &frame.samples)
+            scaled_sample_variance(sampled, halves, &frame.samples, MAX_VARIANCE)
         } else {
             sampled.map(|v| v.min(MAX_VARIANCE))
         };
@@ -93,13 +93,5 @@ impl<'a> Prepared<'a> {
 /// number of pixels that hold one.
 fn check_values(method: &str, image: &Image, limit: f32) -> Result<(), DenoiseError> {
     // A NaN fails the comparison.
-    let good = |v: f32| v.abs() <= limit;
-    if image.data().iter().fold(true, |all, &v| all & good(v)) {
-        return Ok(());
-    }
-    let bad: Vec<usize> =
-        (0..image.pixels()).filter(|&p| image.planes().any(|plane| !good(plane[p]))).collect();
-    let (x, y) = (bad[0] % image.width(), bad[0] / image.width());
-    let what = "a value is not finite";
-    Err(DenoiseError::Undefined { method: method.into(), what, pixels: bad.len(), x, y })
+    DenoiseError::refuse(method, "a value is not finite", image, |v| v.abs() <= limit)
 }

@@ -2,14 +2,14 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{Denominator, NlmInputs, NlmParams, Pass, Planes, filter};
+use noisefloor_kernels::nlm::{Denominator, MAX_VARIANCE, NlmInputs, NlmParams, Pass, Planes, filter};
+use noisefloor_toolbox::{mean_of_halves, smoothed_half_variance};
 
 use crate::features::Feature;
 use crate::kernel;
 use crate::params::SecondPass;
 use crate::prepare::Prepared;
 use crate::settings::{LOW_FLOOR, Settings};
-use crate::variance::{mean_of_halves, smoothed_half_variance};
 
 /// Filters the combination by itself; the mean of both filtered halves.
 pub(crate) fn second_pass(
@@ -20,7 +20,7 @@ pub(crate) fn second_pass(
     settings: &Settings,
 ) -> Result<Image, DenoiseError> {
     let (width, height) = (mean.width(), mean.height());
-    let variance = smoothed_half_variance(halves, &target.frame.samples);
+    let variance = smoothed_half_variance(halves, &target.frame.samples, MAX_VARIANCE);
     let (radius, patch, features): (_, _, &[Feature]) = match settings.second_pass {
         SecondPass::Off => return Ok(mean.clone()),
         SecondPass::Text => (settings.radius, 1, &[]),

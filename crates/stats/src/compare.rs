@@ -123,7 +123,7 @@ pub fn compare(rows: &[Row<'_>], direction: Direction, family: Family, level: Le
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Normals;
+    use crate::random::Normals;
 
     static NONE: ReferenceShare = ReferenceShare { standard_error: 0.0, parts: Vec::new(), product: 0.0 };
 

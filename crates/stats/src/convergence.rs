@@ -179,7 +179,7 @@ fn sentence(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Normals;
+    use crate::random::Normals;
 
     const TRIALS: u64 = 400;
 

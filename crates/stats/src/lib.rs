@@ -33,8 +33,7 @@ mod share;
 mod slope;
 mod student;
 
-#[cfg(test)]
-mod test_random;
+pub mod random;
 
 pub use bounds::{BoundTally, BoundVerdict, bound_verdict, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};

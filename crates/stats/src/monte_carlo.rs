@@ -83,7 +83,7 @@ fn weighted_mean(values: &[f64], weights: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Normals;
+    use crate::random::Normals;
 
     #[test]
     fn the_constant_is_found_and_its_interval_covers() {

@@ -122,7 +122,7 @@ impl Line {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Normals;
+    use crate::random::Normals;
 
     #[test]
     fn exact_series_give_their_parameters() {

@@ -88,7 +88,7 @@ impl ReferenceShare {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::test_random::Normals;
+    use crate::random::Normals;
 
     fn share(parts: &[f64], product: f64) -> ReferenceShare {
         ReferenceShare { standard_error: 1.0, parts: parts.to_vec(), product }

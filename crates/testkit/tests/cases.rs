@@ -29,7 +29,7 @@ impl<F: Fn(&Frame) -> Result<Output, DenoiseError> + Send + Sync> Denoiser for F
 }
 
 fn card() -> MethodCard {
-    MethodCard::new("fake", "fake", Citation { key: "none", text: "none" })
+    MethodCard::new("fake", "fake", Citation::new("none", "none"))
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn the_check_names_what_is_wrong() {
     assert!(message(&careless).contains("although inputs are missing"));
     let mut bold = card();
     bold.claims.enclosure.push(Claim {
-        name: "interval",
+        name: "interval".into(),
         terms: vec![(1.0, Level::TWO_SIDED_99)],
         level: Level::TWO_SIDED_99,
         proven: true,

@@ -104,7 +104,7 @@ struct Shift(f32);
 
 impl Denoiser for Shift {
     fn card(&self) -> MethodCard {
-        MethodCard::new("shift", "shift", Citation { key: "none", text: "none" })
+        MethodCard::new("shift", "shift", Citation::new("none", "none"))
     }
 
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {

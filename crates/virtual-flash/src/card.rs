@@ -6,11 +6,11 @@ use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};
 
 /// The source work.
-pub const CITATION: Citation = Citation {
-    key: "moon2013flash",
-    text: "B. Moon, J. Y. Jun, J. Lee, K. Kim, T. Hachisuka, S.-E. Yoon, Robust Image Denoising Using a Virtual Flash Image \
+pub const CITATION: Citation = Citation::new(
+    "moon2013flash",
+    "B. Moon, J. Y. Jun, J. Lee, K. Kim, T. Hachisuka, S.-E. Yoon, Robust Image Denoising Using a Virtual Flash Image \
            for Monte Carlo Ray Tracing, Computer Graphics Forum 32(1), 2013",
-};
+);
 
 pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
     let mut card = MethodCard::new(id, name(params), CITATION);
@@ -78,7 +78,7 @@ fn claims(params: &Params, steps: &[Step]) -> Claims {
     if !per_channel {
         return claims;
     }
-    let claim = |name, terms, level, proven| Claim { name, terms, level, proven };
+    let claim = |name: &'static str, terms, level, proven| Claim { name: name.into(), terms, level, proven };
     match steps {
         [only] => {
             let level = only.level;

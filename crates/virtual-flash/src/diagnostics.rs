@@ -1,7 +1,7 @@
 //! What the figures of the source work show: the flash image, the homogeneous set of one pixel and its weights (Fig. 5), the
 //! result of the first step (Fig. 7).
 
-use noisefloor_denoiser::Output;
+use noisefloor_denoiser::{Output, Unit};
 use noisefloor_frame::Image;
 use noisefloor_kernels::flash_filter::{
     FlashFilterError, FlashInputs, FlashParams, homogeneous_counts, homogeneous_window,
@@ -22,15 +22,15 @@ pub(crate) fn describe_step(
         planes.extend(counts?.into_iter().map(|n| n as f32));
     }
     let mean = planes.iter().copied().map(f64::from).sum::<f64>() / planes.len() as f64; // never empty
-    output.figures.push((format!("mean number of homogeneous pixels, {name}"), mean));
+    output.figure(format!("mean number of homogeneous pixels, {name}"), Unit::Pixels, mean);
     let image = Image::from_vec(width, height, 3, planes).expect("three counts per pixel");
-    output.diagnostics.push((format!("homogeneous pixels, {name}"), image));
+    output.diagnose(format!("homogeneous pixels, {name}"), Unit::Pixels, image);
 
     let window = homogeneous_window(params, inputs, probe.0, probe.1)?;
     let side = window.side;
     let members = Image::from_fn(side, side, 3, |c, x, y| f32::from(window.member[c][y * side + x]));
     let weights = Image::from_fn(side, side, 3, |c, x, y| window.weight[c][y * side + x]);
-    output.diagnostics.push((format!("homogeneous set of the probe, {name}"), members));
-    output.diagnostics.push((format!("weights of the probe, {name}"), weights));
+    output.diagnose(format!("homogeneous set of the probe, {name}"), Unit::None, members);
+    output.diagnose(format!("weights of the probe, {name}"), Unit::None, weights);
     Ok(())
 }

@@ -1,21 +1,11 @@
 //! The flash image F = F0 + I·S from its parts.
 
 use noisefloor_frame::{Image, luminance};
+use noisefloor_toolbox::percentile;
 use rayon::prelude::*;
 
 /// Values or pixels that one thread handles at a time.
 pub(crate) const CHUNK: usize = 1 << 14;
-
-/// Value at `percent` of the sorted finite values (nearest rank); 0 if there is none.
-pub(crate) fn percentile(mut values: Vec<f32>, percent: f64) -> f64 {
-    values.retain(|v| v.is_finite());
-    if values.is_empty() {
-        return 0.0;
-    }
-    let rank = (percent / 100.0 * values.len() as f64).ceil() as usize;
-    let index = rank.clamp(1, values.len()) - 1;
-    f64::from(*values.select_nth_unstable_by(index, f32::total_cmp).1)
-}
 
 /// One value for each pixel from its three channels.
 pub(crate) fn per_pixel(image: &Image, value: impl Fn([f32; 3]) -> f32 + Sync) -> Vec<f32> {
@@ -88,15 +78,6 @@ pub(crate) fn variance(base: &Image, light: &Image, covariance: Option<&Image>, 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn percentile_is_the_nearest_rank_of_the_finite_values() {
-        let values = || vec![3.0, f32::NAN, 1.0, 2.0, f32::INFINITY, 4.0];
-        for (percent, expected) in [(0.1, 1.0), (25.0, 1.0), (25.1, 2.0), (99.9, 4.0), (100.0, 4.0)] {
-            assert_eq!(percentile(values(), percent), expected, "{percent} %");
-        }
-        assert_eq!(percentile(vec![f32::NAN], 50.0), 0.0);
-    }
 
     #[test]
     fn intensity_makes_up_for_the_light_that_is_missing() {

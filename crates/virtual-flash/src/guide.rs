@@ -3,9 +3,10 @@
 use noisefloor_frame::{Flash, Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
 use noisefloor_kernels::mirror;
+use noisefloor_toolbox::percentile;
 use rayon::prelude::*;
 
-use crate::flash::{self, per_pixel, percentile};
+use crate::flash::{self, per_pixel};
 use crate::{GuideKind, Params};
 
 /// What range weights are computed from.

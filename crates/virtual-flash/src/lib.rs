@@ -13,7 +13,7 @@ mod tolerance;
 mod tests;
 
 pub use card::CITATION;
-pub use method::{ENTRY, VirtualFlash};
+pub use method::{VirtualFlash, virtual_flash};
 pub use params::{GuideKind, Params, SpreadKind, TestKind};
 
 /// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.

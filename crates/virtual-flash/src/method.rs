@@ -1,15 +1,16 @@
+use std::sync::Arc;
+
 use noisefloor_denoiser::{
-    DenoiseError, Denoiser, Diagnostics, Entry, Input, MethodCard, Output, StageTimer, build_with,
+    DenoiseError, Denoiser, Diagnostics, Factory, Input, MethodCard, Output, ParamError, StageTimer, Unit,
+    method,
 };
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::Level;
 use noisefloor_kernels::flash_filter::{
     self, FlashFilterError, FlashInputs, FlashParams, MAX_PIXELS, MAX_SOURCE, PatchWeights,
 };
-use rayon::prelude::*;
 
 use crate::diagnostics::describe_step;
-use crate::flash::CHUNK;
 use crate::guide::Guide;
 use crate::params::Step;
 use crate::spread::{Along, tested_variance};
@@ -18,14 +19,12 @@ use crate::{Params, card};
 
 const ID: &str = "virtual-flash";
 
-/// Registry entry of [`VirtualFlash`].
-pub const ENTRY: Entry = Entry {
-    id: ID,
-    summary: "patch-weighted mean over statistically equal pixels, guided by a virtual flash image",
-    params: Params::DOCS,
-    defaults: || serde_json::to_value(Params::default()).unwrap_or_default(),
-    build: |overrides| build_with(ID, Params::DOCS, overrides, VirtualFlash::new),
-};
+/// Factory of [`VirtualFlash`].
+#[must_use]
+pub fn virtual_flash() -> Arc<dyn Factory> {
+    let summary = "patch-weighted mean over statistically equal pixels, guided by a virtual flash image";
+    method(ID, summary, Some(crate::README), VirtualFlash::new)
+}
 
 /// The method of Moon et al. 2013: see the crate documentation.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,12 +38,16 @@ impl VirtualFlash {
     /// Validates the parameters.
     ///
     /// # Errors
-    /// The name of the first parameter that is out of range, see [`Params::DOCS`].
-    pub fn new(params: Params) -> Result<Self, &'static str> {
-        params.validate()?;
+    /// The first parameter that is out of range.
+    pub fn new(params: Params) -> Result<Self, ParamError> {
         let steps = params.steps()?;
-        let patch = PatchWeights::gaussian(params.patch_radius_px, params.patch_sigma_px as f32)
-            .map_err(|_| "patch_sigma_px")?;
+        let patch = PatchWeights::gaussian(params.patch_radius_px, params.patch_sigma_px as f32).map_err(
+            |error| ParamError {
+                parameter: "patch_sigma_px".into(),
+                value: params.patch_sigma_px.to_string(),
+                range: error.to_string(),
+            },
+        )?;
         Ok(Self { params, steps, patch })
     }
 
@@ -122,14 +125,16 @@ impl Denoiser for VirtualFlash {
         input.check(&self.card())?;
         let frame = input.target;
         let probe = probe(input)?;
-        check_size(frame)?;
-        check_values(&frame.color.mean, |v| v.abs() <= MAX_SOURCE, "colour is not finite or above 1e30")?;
+        DenoiseError::refuse_size(ID, frame, MAX_PIXELS)?;
+        DenoiseError::refuse(ID, "colour is not finite or above 1e30", &frame.color.mean, |v| {
+            v.abs() <= MAX_SOURCE
+        })?;
         let mut timer = StageTimer::start();
 
         // Sec. 3.1: flash image, or what stands for it, and the width of its range weights.
         let guide = Guide::new(frame, &self.params, &self.patch);
         if let Some(guide) = &guide {
-            check_values(&guide.image, |v| v.is_finite(), "guide image is not finite")?;
+            DenoiseError::refuse(ID, "guide image is not finite", &guide.image, |v| v.is_finite())?;
         }
         timer.finish("guide");
 
@@ -138,7 +143,9 @@ impl Denoiser for VirtualFlash {
         let tested = tested_variance(frame, &self.params);
         let along = Along::new(frame, &self.params, tested.as_deref());
         if let Some(Along::Variances(variance)) = along {
-            check_values(variance, |v| (0.0..=f32::MAX).contains(&v), "variance is negative or not finite")?;
+            DenoiseError::refuse(ID, "variance is negative or not finite", variance, |v| {
+                (0.0..=f32::MAX).contains(&v)
+            })?;
         }
         let raw = || tested.as_deref().cloned();
         let tolerance =
@@ -171,10 +178,10 @@ impl Denoiser for VirtualFlash {
                 let params = self.kernel_params(frame, step);
                 let inputs = inputs(&source, guide_of, &tolerance);
                 describe_step(&mut output, step.name, &params, &inputs, probe).map_err(kernel_error)?;
-                output.diagnostics.push(("after step 1".into(), source));
+                output.diagnose("after step 1", Unit::Radiance, source);
             }
             if let Some(guide) = guide {
-                output.diagnostics.push(("guide image".into(), guide.image));
+                output.diagnose("guide image", Unit::Radiance, guide.image);
             }
             timer.finish("diagnostics");
         }
@@ -186,13 +193,13 @@ impl Denoiser for VirtualFlash {
 fn figures(output: &mut Output, guide: Option<&Guide>) {
     let Some(guide) = guide else { return };
     let figures = [
-        ("flash intensity", guide.intensity),
-        ("least sigma_r", Some(guide.sigma_r.0)),
-        ("largest sigma_r", Some(guide.sigma_r.1)),
+        ("flash intensity", Unit::None, guide.intensity),
+        ("least sigma_r", Unit::Radiance, Some(guide.sigma_r.0)),
+        ("largest sigma_r", Unit::Radiance, Some(guide.sigma_r.1)),
     ];
-    for (name, value) in figures {
+    for (name, unit, value) in figures {
         if let Some(value) = value.filter(|v| v.is_finite()) {
-            output.figures.push((name.into(), value));
+            output.figure(name, unit, value);
         }
     }
 }
@@ -209,46 +216,13 @@ fn probe(input: &Input<'_>) -> Result<Option<(usize, usize)>, DenoiseError> {
     }
     Err(DenoiseError::Parameter {
         method: ID.into(),
-        parameter: "probe",
+        parameter: "probe".into(),
         value: format!("({x}, {y})"),
         allowed: format!("columns 0 to {}, rows 0 to {}", width - 1, height - 1),
     })
 }
 
-fn check_size(frame: &Frame) -> Result<(), DenoiseError> {
-    if frame.pixels() <= MAX_PIXELS {
-        return Ok(());
-    }
-    Err(DenoiseError::Parameter {
-        method: ID.into(),
-        parameter: "image size",
-        value: format!("{} pixels", frame.pixels()),
-        allowed: format!("at most {MAX_PIXELS}"),
-    })
-}
-
-/// Refuses values that the filter has no answer for, with the number of pixels that hold one.
-fn check_values(
-    image: &Image,
-    good: impl Fn(f32) -> bool + Sync,
-    what: &'static str,
-) -> Result<(), DenoiseError> {
-    // The usual case, without bookkeeping; a NaN fails every comparison.
-    if image.data().par_chunks(CHUNK).all(|part| part.iter().fold(true, |all, &v| all & good(v))) {
-        return Ok(());
-    }
-    let bad: Vec<usize> =
-        (0..image.pixels()).filter(|&p| image.planes().any(|plane| !good(plane[p]))).collect();
-    let (x, y) = (bad[0] % image.width(), bad[0] / image.width());
-    Err(DenoiseError::Undefined { method: ID.into(), what, pixels: bad.len(), x, y })
-}
-
 /// The kernel refuses what was checked before it ran; should it find more, its message is kept.
 fn kernel_error(error: FlashFilterError) -> DenoiseError {
-    DenoiseError::Parameter {
-        method: ID.into(),
-        parameter: "kernel input",
-        value: error.to_string(),
-        allowed: "what the kernel's documentation says".into(),
-    }
+    DenoiseError::of_kernel(ID, &error)
 }

@@ -69,7 +69,7 @@ fn against(reference: &Reference, frame: &Frame, image: &Image) -> Result<Value,
     let squared = measurer.squared_errors(image)?;
     let estimate = image.map(|v| 0.01 * v);
     let level = Level::TWO_SIDED_95;
-    let claims = [Claim { name: "claim", terms: vec![(1.5, level)], level, proven: true }];
+    let claims = [Claim { name: "claim".into(), terms: vec![(1.5, level)], level, proven: true }];
     let invalid: Vec<bool> = (0..frame.pixels()).map(|pixel| pixel % 97 == 5).collect();
     let measure = Measure::new(frame, reference, &classes, &invalid, true);
     Ok(json!({

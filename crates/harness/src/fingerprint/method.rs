@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 
-use noisefloor_denoiser::{DenoiseError, Input, Method, MethodCard, Output};
+use noisefloor_denoiser::{DenoiseError, Figure, Input, Method, MethodCard, Output};
 use noisefloor_frame::Frame;
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene, hard_case};
 
@@ -89,6 +89,11 @@ fn fingerprint(method: &Method) -> Key {
     let mut bits = Bits::of("method");
     let card = method.denoiser.card();
     bits.text(&contract(&card));
+    if let Some(version) = &method.version {
+        // Something else computes, and says what it is.
+        bits.text(version);
+        return bits.finish();
+    }
     for case in &frames().cases {
         add(&mut bits, method, &Input::new(case));
     }
@@ -134,7 +139,17 @@ fn add_refusal(bits: &mut Bits, error: &DenoiseError) {
 
 fn add_output(bits: &mut Bits, output: &Output) {
     // Seconds differ from run to run; diagnostic images are looked at, not counted.
-    let Output { image, error_estimate, estimate_of, bounds, diagnostics: _, figures, stages: _ } = output;
+    let Output {
+        image,
+        error_estimate,
+        estimate_of,
+        bounds,
+        diagnostics: _,
+        figures,
+        stages: _,
+        seconds: _,
+        log: _,
+    } = output;
     bits.text("output");
     bits.image(image);
     bits.images(error_estimate);
@@ -144,11 +159,12 @@ fn add_output(bits: &mut Bits, output: &Output) {
     }
     bits.number(bounds.len() as u64);
     for bound in bounds {
-        bits.text(&bound.claim);
+        bits.text(&bound.name);
+        bits.number(bound.level.confidence().to_bits());
         bits.image(&bound.half_width);
     }
     bits.number(figures.len() as u64);
-    for (name, value) in figures {
+    for Figure { name, value, unit: _ } in figures {
         bits.text(name);
         bits.number(if value.is_nan() { f64::NAN.to_bits() } else { value.to_bits() });
     }
@@ -156,7 +172,7 @@ fn add_output(bits: &mut Bits, output: &Output) {
 
 #[cfg(test)]
 mod tests {
-    use noisefloor_denoiser::{Citation, Denoiser, Guarded, MC_ENTRY, MonteCarlo, Registry};
+    use noisefloor_denoiser::{Citation, Denoiser, Guarded, MonteCarlo, Registry, Unit, mc};
     use noisefloor_stats::Level;
     use serde_json::{Map, json};
 
@@ -167,7 +183,7 @@ mod tests {
 
     impl<F: Fn(&Frame, Output) -> Result<Output, DenoiseError> + Send + Sync> Denoiser for Fake<F> {
         fn card(&self) -> MethodCard {
-            MethodCard::new("fake", "fake", Citation { key: "none", text: "none" })
+            MethodCard::new("fake", "fake", Citation::new("none", "none"))
         }
 
         fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
@@ -179,11 +195,16 @@ mod tests {
     where
         F: Fn(&Frame, Output) -> Result<Output, DenoiseError> + Send + Sync + 'static,
     {
-        fingerprint(&Method { id: "fake".into(), params: json!({}), denoiser: Box::new(Fake(edit)) })
+        fingerprint(&Method {
+            id: "fake".into(),
+            params: json!({}),
+            version: None,
+            denoiser: Box::new(Fake(edit)),
+        })
     }
 
     fn refusal(wording: &'static str) -> DenoiseError {
-        DenoiseError::Undefined { method: "fake".into(), what: wording, pixels: 1, x: 0, y: 0 }
+        DenoiseError::Undefined { method: "fake".into(), what: wording.into(), pixels: 1, x: 0, y: 0 }
     }
 
     #[test]
@@ -207,11 +228,11 @@ mod tests {
             Ok(output)
         });
         let figure = fake(|_, mut output| {
-            output.figures.push(("a".into(), 1.0));
+            output.figure("a", Unit::None, 1.0);
             Ok(output)
         });
         let diagnostics = fake(|_, mut output| {
-            output.diagnostics.push(("a".into(), output.image.clone()));
+            output.diagnose("a", Unit::None, output.image.clone());
             Ok(output)
         });
         assert!(plain != small && plain != estimate && plain != figure && estimate != figure);
@@ -230,7 +251,12 @@ mod tests {
 
     #[test]
     fn claims_and_needs_are_part_of_it() {
-        let built = |denoiser: Box<dyn Denoiser>| Method { id: "m".into(), params: json!({}), denoiser };
+        let built = |denoiser: Box<dyn Denoiser>| Method {
+            id: "m".into(),
+            params: json!({}),
+            version: None,
+            denoiser,
+        };
         let guarded = |level| built(Box::new(Guarded::new(Box::new(MonteCarlo), level)));
         // The guarded input is the input: the bits are the same, the claims are not.
         let levels = [Level::TWO_SIDED_95, Level::TWO_SIDED_99].map(|level| fingerprint(&guarded(level)));
@@ -240,7 +266,7 @@ mod tests {
 
     #[test]
     fn a_fingerprint_is_made_once_and_is_the_same_on_any_number_of_threads() {
-        let registry = Registry::new(&[MC_ENTRY], &[]);
+        let registry = Registry::new([mc()]);
         let method = registry.build("guarded(mc)", &Map::new()).unwrap();
         let mut kept = Fingerprints::default();
         let first = kept.of(&method);

@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use noisefloor_denoiser::{Input, Output};
+use noisefloor_denoiser::{Diagnostic, Input, Output, Unit};
 use noisefloor_frame::{Counts, Finding, FindingKind, Frame, Hygiene, Image, Reference, Sampling};
+use noisefloor_io::IoError;
 use noisefloor_metrics::{Measurer, MetricError, block_bootstrap};
 
 use crate::cache::{Cache, Key};
@@ -158,6 +159,7 @@ impl Runner<'_> {
             peak_memory_bytes: None,
             image: None,
             diagnostics: BTreeMap::new(),
+            log: None,
             files: BTreeMap::new(),
         }
     }
@@ -256,9 +258,10 @@ impl Cell<'_> {
         record.peak_memory_bytes = machine::peak_memory();
         record.seconds.denoise = Some(done.seconds);
         record.seconds.denoise_runs = done.runs;
+        record.seconds.around = done.around;
         record.seconds.stages = done.stages;
         let metric = |source| HarnessError::Metric { scene: scene.id.clone(), source };
-        let Output { image: output, error_estimate, estimate_of, figures, .. } = done.output;
+        let Output { image: output, error_estimate, estimate_of, figures, bounds, log, .. } = done.output;
         record.non_finite.output_values = output.count_non_finite();
         // Where nothing was read there is nothing to measure, whatever was made up there: for no row.
         let mut image = output.clone();
@@ -290,7 +293,8 @@ impl Cell<'_> {
             let check = self.measure.estimate(estimate, &squared);
             record.error_estimate = check.map(|check| EstimateCheck { of, ..check });
         }
-        record.figures = figures.into_iter().filter(|(_, value)| value.is_finite()).collect();
+        let finite = figures.into_iter().filter(|figure| figure.value.is_finite());
+        record.figures = finite.map(|figure| (figure.name, figure.value)).collect();
         let shape = |source| HarnessError::Shape { scene: scene.id.clone(), source };
         let measure = &self.measure;
         if row.method.id == crate::BASELINE {
@@ -300,16 +304,24 @@ impl Cell<'_> {
         if record.adaptive.is_none() {
             let claims = &row.card.claims;
             record.bounds = measure.bounds(&output, &claims.error_bound).map_err(shape)?;
+            record.bounds.extend(measure.own_bounds(&output, &bounds).map_err(shape)?);
             record.enclosures = measure.enclosures(&output, &claims.enclosure).map_err(shape)?;
         }
 
         let relative = Layout::image(&scene.id, &row.slug, spec.spp, spec.replicate);
         record.image = Some(self.write(relative, &image, record)?);
+        if !log.is_empty() {
+            let relative = Layout::log(&scene.id, &row.slug, spec.spp, spec.replicate);
+            record.log = Some(self.keep(relative, record, |path| {
+                noisefloor_io::write_atomically(path, |out| out.write_all(log.as_bytes()))
+            })?);
+        }
         let mut diagnostics = done.diagnostics;
         if matches!(spec.kind, FrameKind::Adaptive(_)) && wants_diagnostics(self.runner.request.study, spec) {
-            diagnostics.push(("samples per pixel".into(), sample_counts(self.frame)));
+            let (name, unit) = ("samples per pixel".into(), Unit::None);
+            diagnostics.push(Diagnostic { name, unit, image: sample_counts(self.frame) });
         }
-        for (name, diagnostic) in &diagnostics {
+        for Diagnostic { name, image: diagnostic, unit: _ } in &diagnostics {
             let name_of_file: String =
                 name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '-' }).collect();
             let path = Layout::diagnostic(&scene.id, &row.slug, spec.spp, spec.replicate, &name_of_file);
@@ -321,9 +333,19 @@ impl Cell<'_> {
 
     /// Writes an image of a record; returns its path.
     fn write(&self, wanted: String, image: &Image, record: &mut Record) -> Result<String, HarnessError> {
+        self.keep(wanted, record, |path| noisefloor_io::write_image(path, image, &BTreeMap::new()))
+    }
+
+    /// Writes a file of a record and keeps its hash; returns its path.
+    fn keep(
+        &self,
+        wanted: String,
+        record: &mut Record,
+        write: impl FnOnce(&Path) -> Result<(), IoError>,
+    ) -> Result<String, HarnessError> {
         let relative = self.runner.owners.path(wanted, &record.cell);
         let path = self.runner.layout.ready(&relative)?;
-        noisefloor_io::write_image(AsRef::<Path>::as_ref(&path), image, &BTreeMap::new())?;
+        write(path.as_ref())?;
         record.files.insert(relative.clone(), hash_of(&path)?);
         Ok(relative)
     }

@@ -2,8 +2,8 @@
 
 use std::time::Instant;
 
-use noisefloor_denoiser::{DenoiseError, Diagnostics, Input, Output, StageSeconds};
-use noisefloor_frame::{Finding, Image};
+use noisefloor_denoiser::{DenoiseError, Diagnostic, Diagnostics, Input, Output, StageSeconds};
+use noisefloor_frame::Finding;
 
 use crate::fingerprint::attempt;
 use crate::plan::Row;
@@ -14,14 +14,16 @@ use crate::study::Timing;
 pub(super) struct Denoised {
     /// Of the first run: all runs give the same bits.
     pub(super) output: Output,
-    /// Median.
+    /// Median of the method's own seconds.
     pub(super) seconds: f64,
+    /// Median of what was around them: starting a program and its files; none where all time is the method's.
+    pub(super) around: Option<f64>,
     /// All timed runs in order.
     pub(super) runs: Vec<f64>,
     /// Stages of the run whose time is the median, or next below it.
     pub(super) stages: Vec<StageSeconds>,
     /// From a run of its own, which is not timed.
-    pub(super) diagnostics: Vec<(String, Image)>,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 /// Runs a row on a checked frame and its neighbours; `findings` are those about the frame. `diagnostics` asks for
@@ -43,18 +45,21 @@ pub(super) fn denoise(
     for _ in 0..timing.warmup {
         first = Some(once(row, &input)?);
     }
-    let mut timed = Vec::new();
+    let (mut timed, mut around) = (Vec::new(), Vec::new());
     for _ in 0..timing.runs.max(1) {
         let start = Instant::now();
         let output = once(row, &input)?;
-        timed.push((start.elapsed().as_secs_f64(), output.stages.clone()));
+        let wall = start.elapsed().as_secs_f64();
+        // What a method says of itself, as far as it can be true.
+        let own = output.seconds.filter(|own| (0.0..=wall).contains(own));
+        around.extend(own.map(|own| wall - own));
+        timed.push((own.unwrap_or(wall), output.stages.clone()));
         first.get_or_insert(output);
     }
+    let around = median(around);
     let runs: Vec<f64> = timed.iter().map(|(seconds, _)| *seconds).collect();
     timed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let middle = timed.len() / 2;
-    let seconds =
-        if timed.len() % 2 == 1 { timed[middle].0 } else { 0.5 * (timed[middle - 1].0 + timed[middle].0) };
+    let seconds = median(runs.clone()).unwrap_or(0.0); // at least one run
     let stages = timed.swap_remove((timed.len() - 1) / 2).1;
     let diagnostics = match diagnostics {
         Some(probe) => {
@@ -65,7 +70,18 @@ pub(super) fn denoise(
         None => Vec::new(),
     };
     let output = first.ok_or_else(|| Outcome::Failed { reason: "it was never run".into() })?;
-    Ok(Denoised { output, seconds, runs, stages, diagnostics })
+    Ok(Denoised { output, seconds, around, runs, stages, diagnostics })
+}
+
+/// The middle one, or the mean of both in the middle.
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let middle = values.len() / 2;
+    match values.len() {
+        0 => None,
+        n if n % 2 == 1 => Some(values[middle]),
+        _ => Some(0.5 * (values[middle - 1] + values[middle])),
+    }
 }
 
 /// What is missing, and why if that was found.
@@ -115,6 +131,13 @@ fn once(row: &Row, input: &Input<'_>) -> Result<Output, Outcome> {
     }
     if let Some((name, _)) = output.estimate_of.as_ref().filter(|(_, image)| !image.same_shape(target)) {
         return Err(failed(format!("{} gave `{name}` in another size than the frame's", row.method.id)));
+    }
+    if let Some(bound) = output.bounds.iter().find(|bound| !bound.half_width.same_shape(target)) {
+        let name = &bound.name;
+        return Err(failed(format!(
+            "{} gave the bound `{name}` in another size than the frame's",
+            row.method.id
+        )));
     }
     Ok(output)
 }

@@ -5,40 +5,31 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use noisefloor_denoiser::{
-    Adaptive, Citation, Claim, DenoiseError, Denoiser, Entry, Input, MC_ENTRY, MethodCard, Need, Output,
-    ParamDoc, Registry, build_with,
+    Adaptive, Citation, Claim, DenoiseError, Denoiser, Input, MethodCard, Need, NoParams, Output, Parameters,
+    Registry, Unit, mc, method, parameters,
 };
 use noisefloor_frame::Image;
 use noisefloor_harness::record::{Outcome, Record, Seconds};
 use noisefloor_harness::summary::Summary;
 use noisefloor_harness::{HarnessError, Observer, Study, StudyRun, Workload};
 use noisefloor_stats::Level;
-use serde::{Deserialize, Serialize};
 
-const CITATION: Citation = Citation { key: "none", text: "made up for a test" };
+const CITATION: Citation = Citation::new("none", "made up for a test");
 
 /// Mean over a square window, with a false claim to stay in the interval if asked.
 struct Blur(BlurParams);
 
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct BlurParams {
-    radius: usize,
-    boast: bool,
-    halves: bool,
-}
-
-impl Default for BlurParams {
-    fn default() -> Self {
-        Self { radius: 1, boast: false, halves: false }
+parameters! {
+    /// For tests.
+    struct BlurParams {
+        /// Half the window.
+        radius: usize = 1, integer(0..=20).unit("px");
+        /// Claims an interval that it leaves.
+        boast: bool = false, flag();
+        /// Needs half buffers.
+        halves: bool = false, flag();
     }
 }
-
-const BLUR_PARAMS: &[ParamDoc] = &[
-    ParamDoc { name: "radius", range: "0 to 20 pixels", about: "half the window" },
-    ParamDoc { name: "boast", range: "true or false", about: "claims an interval that it leaves" },
-    ParamDoc { name: "halves", range: "true or false", about: "needs half buffers" },
-];
 
 impl Denoiser for Blur {
     fn card(&self) -> MethodCard {
@@ -48,7 +39,7 @@ impl Denoiser for Blur {
         }
         if self.0.boast {
             let level = Level::TWO_SIDED_95;
-            let claim = Claim { name: "boast", terms: vec![(1e-3, level)], level, proven: false };
+            let claim = Claim { name: "boast".into(), terms: vec![(1e-3, level)], level, proven: false };
             card.claims.enclosure = vec![claim.clone()];
             card.claims.error_bound = vec![claim];
         }
@@ -70,11 +61,9 @@ impl Denoiser for Blur {
             sum / count
         });
         let mut output = Output::from_image(image);
-        output.figures.push(("radius".into(), self.0.radius as f64));
+        output.figure("radius", Unit::Pixels, self.0.radius as f64);
         if input.diagnostics != noisefloor_denoiser::Diagnostics::Off {
-            output
-                .diagnostics
-                .push(("window size".into(), Image::filled(mean.width(), mean.height(), 1, 1.0)));
+            output.diagnose("window size", Unit::Pixels, Image::filled(mean.width(), mean.height(), 1, 1.0));
         }
         Ok(output)
     }
@@ -83,27 +72,19 @@ impl Denoiser for Blur {
 /// The input plus an offset, with `scale` times its variance as the estimate of its squared error: unbiased at 1.
 struct Judge(JudgeParams);
 
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct JudgeParams {
-    scale: f32,
-    silent: bool,
-    flat: bool,
-    offset: f32,
-}
-
-impl Default for JudgeParams {
-    fn default() -> Self {
-        Self { scale: 1.0, silent: false, flat: false, offset: 0.0 }
+parameters! {
+    /// For tests.
+    struct JudgeParams {
+        /// Estimate over variance.
+        scale: f32 = 1.0, number(..);
+        /// Claims an estimate and gives none.
+        silent: bool = false, flag();
+        /// Gives an estimate of one channel.
+        flat: bool = false, flag();
+        /// Added to the input.
+        offset: f32 = 0.0, number(..);
     }
 }
-
-const JUDGE_PARAMS: &[ParamDoc] = &[
-    ParamDoc { name: "scale", range: "any number", about: "estimate over variance" },
-    ParamDoc { name: "silent", range: "true or false", about: "claims an estimate and gives none" },
-    ParamDoc { name: "flat", range: "true or false", about: "gives an estimate of one channel" },
-    ParamDoc { name: "offset", range: "any number", about: "added to the input" },
-];
 
 impl Denoiser for Judge {
     fn card(&self) -> MethodCard {
@@ -129,17 +110,15 @@ impl Denoiser for Judge {
 /// The input, which wants samples on the left only, and looks at frames beside it.
 struct Seeker(SeekerParams);
 
-#[derive(Clone, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SeekerParams {
-    neighbors: usize,
-    lost: bool,
+parameters! {
+    /// For tests.
+    struct SeekerParams {
+        /// Frames on each side.
+        neighbors: usize = 0, integer(0..=99);
+        /// Fails to say where samples are needed.
+        lost: bool = false, flag();
+    }
 }
-
-const SEEKER_PARAMS: &[ParamDoc] = &[
-    ParamDoc { name: "neighbors", range: "any number", about: "frames on each side" },
-    ParamDoc { name: "lost", range: "true or false", about: "fails to say where samples are needed" },
-];
 
 impl Denoiser for Seeker {
     fn card(&self) -> MethodCard {
@@ -149,11 +128,11 @@ impl Denoiser for Seeker {
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
         input.check(&self.card())?;
         let mut output = Output::from_image(input.target.color.mean.clone());
-        output.figures.push(("before".into(), input.before.len() as f64));
-        output.figures.push(("after".into(), input.after.len() as f64));
+        output.figure("before", Unit::None, input.before.len() as f64);
+        output.figure("after", Unit::None, input.after.len() as f64);
         // The frames in time order tell themselves by their first value.
         for (k, frame) in input.before.iter().chain([input.target]).chain(input.after).enumerate() {
-            output.figures.push((format!("frame {k}"), f64::from(frame.color.mean.data()[0])));
+            output.figure(format!("frame {k}"), Unit::Radiance, f64::from(frame.color.mean.data()[0]));
         }
         Ok(output)
     }
@@ -168,7 +147,7 @@ impl Adaptive for Seeker {
         if self.0.lost {
             return Err(DenoiseError::Undefined {
                 method: "seeker".into(),
-                what: "way",
+                what: "way".into(),
                 pixels: 1,
                 x: 0,
                 y: 0,
@@ -201,60 +180,24 @@ impl Denoiser for Trouble {
                 image.set(0, 0, 0, f32::NAN);
                 Ok(Output::from_image(image))
             }
-            _ => {
-                Err(DenoiseError::Undefined { method: self.0.into(), what: "weight", pixels: 7, x: 1, y: 2 })
-            }
+            _ => Err(DenoiseError::Undefined {
+                method: self.0.into(),
+                what: "weight".into(),
+                pixels: 7,
+                x: 1,
+                y: 2,
+            }),
         }
     }
 }
 
-#[derive(Default, Serialize, Deserialize)]
-struct NoParams {}
-
-macro_rules! trouble {
-    ($id:literal) => {
-        Entry {
-            id: $id,
-            summary: "a test",
-            params: &[],
-            defaults: || serde_json::json!({}),
-            build: |set| build_with($id, &[], set, |_: NoParams| Ok(Trouble($id))),
-        }
-    };
-}
-
 pub fn registry() -> Registry {
-    let blur = Entry {
-        id: "blur",
-        summary: "box blur",
-        params: BLUR_PARAMS,
-        defaults: || serde_json::to_value(BlurParams::default()).unwrap(),
-        build: |set| {
-            build_with(
-                "blur",
-                BLUR_PARAMS,
-                set,
-                |p: BlurParams| if p.radius <= 20 { Ok(Blur(p)) } else { Err("radius") },
-            )
-        },
-    };
-    let judge = Entry {
-        id: "judge",
-        summary: "judge of itself",
-        params: JUDGE_PARAMS,
-        defaults: || serde_json::to_value(JudgeParams::default()).unwrap(),
-        build: |set| build_with("judge", JUDGE_PARAMS, set, |p: JudgeParams| Ok(Judge(p))),
-    };
-    let seeker = Entry {
-        id: "seeker",
-        summary: "seeks samples",
-        params: SEEKER_PARAMS,
-        defaults: || serde_json::to_value(SeekerParams::default()).unwrap(),
-        build: |set| build_with("seeker", SEEKER_PARAMS, set, |p: SeekerParams| Ok(Seeker(p))),
-    };
-    let troubles =
-        [trouble!("needy"), trouble!("fails"), trouble!("panics"), trouble!("shrinks"), trouble!("nan")];
-    Registry::new(&[MC_ENTRY, blur, judge, seeker], &troubles)
+    let blur = method("blur", "box blur", None, |p: BlurParams| p.check().map(|()| Blur(p)));
+    let judge = method("judge", "judge of itself", None, |p: JudgeParams| Ok(Judge(p)));
+    let seeker = method("seeker", "seeks samples", None, |p: SeekerParams| Ok(Seeker(p)));
+    let troubles = ["needy", "fails", "panics", "shrinks", "nan"]
+        .map(|id| method(id, "a test", None, move |_: NoParams| Ok(Trouble(id))));
+    Registry::new([mc(), blur, judge, seeker].into_iter().chain(troubles))
 }
 
 /// Counts, and stops after a number of cells if asked.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor_denoiser::{MC_ENTRY, Registry};
+use noisefloor_denoiser::{Registry, mc};
 use noisefloor_harness::{HarnessError, Study, memory_estimate};
 
 /// A study of one built-in scene, with more lines at its top, in its scene and in its row.
@@ -123,7 +123,7 @@ fn the_memory_of_the_largest_image_is_known_before_it_is_taken() {
         let text = toml(&format!("width = {width}\nheight = 16384"), "", "id = \"mc\"");
         Study::from_toml(&text, Path::new("limits.toml")).unwrap()
     };
-    let registry = Registry::new(&[MC_ENTRY], &[]);
+    let registry = Registry::new([mc()]);
     let estimate = memory_estimate(&study(16384), &registry, None).unwrap();
     // Colour with variance and halves, the mean of the reference and its eight parts; a frame and its file.
     assert_eq!(estimate.bytes, (1 << 28) * (12 + 27) * 8);

@@ -97,10 +97,10 @@ fn unknown_names_are_told_before_any_work_with_the_nearest() {
     assert!(error.contains("`blurr`") && error.contains("blur") && error.contains("line "), "{error}");
     let error = with_rows("[[method]]\nid = \"blur\"\nset = { radios = 2 }\n");
     let error = place.run(&error, &Watch::default()).unwrap_err().to_string();
-    assert!(error.contains("radios") && error.contains("radius (0 to 20 pixels)"), "{error}");
+    assert!(error.contains("radios") && error.contains("radius (0 to 20 px)"), "{error}");
     let error = with_rows("[[method]]\nid = \"blur\"\nset = { radius = 21 }\n");
     let error = place.run(&error, &Watch::default()).unwrap_err().to_string();
-    assert!(error.contains("21") && error.contains("0 to 20 pixels"), "{error}");
+    assert!(error.contains("21") && error.contains("0 to 20 px"), "{error}");
     assert!(!place.out().exists());
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor_denoiser::{Denoiser, Entry, Input, MC_ENTRY, MethodCard, Output, Registry};
+use noisefloor_denoiser::{Denoiser, Input, MethodCard, NoParams, Output, Registry, mc, method};
 use noisefloor_harness::record::Record;
 use noisefloor_harness::{HarnessError, Study, StudyRun, reanalyse, run};
 
@@ -104,7 +104,7 @@ struct Scaled(f32);
 
 impl Denoiser for Scaled {
     fn card(&self) -> MethodCard {
-        MethodCard::new("blur", "Scaled", noisefloor_denoiser::Citation { key: "none", text: "none" })
+        MethodCard::new("blur", "Scaled", noisefloor_denoiser::Citation::new("none", "none"))
     }
 
     fn denoise(&self, input: &Input<'_>) -> Result<Output, noisefloor_denoiser::DenoiseError> {
@@ -114,15 +114,8 @@ impl Denoiser for Scaled {
 
 /// Two versions of one method: the same id and parameters, other numbers.
 fn version(second: bool) -> Registry {
-    let blur = Entry {
-        id: "blur",
-        summary: "a test",
-        params: &[],
-        defaults: || serde_json::json!({}),
-        build: |_| Ok(Box::new(Scaled(0.9))),
-    };
-    let next = Entry { build: |_| Ok(Box::new(Scaled(0.95))), ..blur };
-    Registry::new(&[MC_ENTRY, if second { next } else { blur }], &[])
+    let factor = if second { 0.95 } else { 0.9 };
+    Registry::new([mc(), method("blur", "a test", None, move |_: NoParams| Ok(Scaled(factor)))])
 }
 
 #[test]

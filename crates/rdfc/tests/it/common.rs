@@ -111,7 +111,7 @@ pub fn diagnose(method: &Rdfc, frame: &Frame) -> Output {
 }
 
 pub fn diagnostic<'a>(output: &'a Output, name: &str) -> &'a Image {
-    &output.diagnostics.iter().find(|(known, _)| known == name).unwrap_or_else(|| panic!("no `{name}`")).1
+    &output.diagnostics.iter().find(|d| d.name == name).unwrap_or_else(|| panic!("no `{name}`")).image
 }
 
 pub fn largest_difference(a: &Image, b: &Image) -> f32 {

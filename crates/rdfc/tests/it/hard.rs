@@ -66,7 +66,7 @@ fn parameters_out_of_range_are_named() {
         ("neighbors", Params { neighbors: 9, ..good.clone() }),
         ("map_patch_radius_px", Params { map_patch_radius_px: Some(4), ..good.clone() }),
     ] {
-        assert_eq!(Rdfc::new(params), Err(name));
+        assert_eq!(Rdfc::new(params).unwrap_err().parameter, name);
     }
 }
 

@@ -126,7 +126,8 @@ fn the_first_pass_lies_between_its_candidates_with_weights_that_sum_to_one() {
         }
         // All three have a say somewhere, or the test says little.
         assert!((0..3).all(|k| binary.plane(k).contains(&1.0)));
-        let shares: f64 = output.figures.iter().filter(|(n, _)| n.starts_with("share")).map(|(_, v)| v).sum();
+        let shares: f64 =
+            output.figures.iter().filter(|f| f.name.starts_with("share")).map(|f| f.value).sum();
         assert!((shares - 1.0).abs() < 1e-6);
     }
 }

@@ -1,9 +1,6 @@
 //! Averages over many draws, with tolerances from their own spread.
 
-use noisefloor_frame::{Image, Samples};
-use noisefloor_rdfc::{
-    Choice, Params, Rdfc, Ties, box_mean, scaled_sample_variance, select, smoothed_half_variance,
-};
+use noisefloor_rdfc::{Choice, Params, Rdfc, Ties, select};
 
 use crate::common::{Normals, estimate, frame, ramp, run, squared_error, step};
 
@@ -43,68 +40,6 @@ fn the_risk_estimate_is_unbiased_where_weights_do_not_depend_on_the_colour() {
         // Sharp enough to notice a twentieth of the noise: what forgetting the derivative would do.
         assert!(error < 0.05 * 0.01);
     }
-}
-
-#[test]
-fn half_differences_average_to_the_variance_and_scaling_ignores_the_scale_of_samples() {
-    let (w, h) = (64, 48);
-    let noisy = estimate(&Image::filled(w, h, 1, 0.5), 0.2, &mut Normals::new(5));
-    let halves = noisy.halves.unwrap();
-    let samples = Samples::uniform(16);
-    let smooth = smoothed_half_variance(&halves, &samples);
-    let (average, _) = mean(&smooth.data().iter().copied().map(f64::from).collect::<Vec<_>>());
-    // A squared normal number has relative variance 2; smoothing mixes 9 pixels and the border a few more.
-    let error = 0.04 * (2.0f64 / (w * h) as f64).sqrt();
-    assert!((average - 0.04).abs() < 4.0 * error, "{average}");
-
-    let mut normals = Normals::new(6);
-    let sample = Image::from_fn(w, h, 1, |_, _, _| 0.03 + 0.02 * normals.uniform() as f32);
-    let scaled = scaled_sample_variance(&sample, &halves, &samples);
-    let (average, _) = mean(&scaled.data().iter().copied().map(f64::from).collect::<Vec<_>>());
-    assert!((average - 0.04).abs() < 4.0 * error, "{average}");
-    // 10⁻¹⁰ beside 10⁻² is what the guard changes.
-    for factor in [0.1, 100.0] {
-        let again = scaled_sample_variance(&sample.map(|v| factor * v), &halves, &samples);
-        for (a, b) in scaled.data().iter().zip(again.data()) {
-            assert!((a / b - 1.0).abs() < 1e-6);
-        }
-    }
-}
-
-#[test]
-fn unequal_halves_count_by_their_samples() {
-    let halves = [Image::filled(5, 4, 1, 3.0), Image::filled(5, 4, 1, 1.0)];
-    for (n, a) in [(16u32, 8u32), (7, 4), (3, 2), (2, 1)] {
-        let variance = smoothed_half_variance(&halves, &Samples::uniform(n));
-        let expected = 4.0 * f64::from(a) * f64::from(n - a) / f64::from(n * n);
-        assert!(variance.data().iter().all(|v| (f64::from(*v) - expected).abs() < 1e-6), "{n}");
-    }
-}
-
-#[test]
-fn box_means_are_those_of_a_loop_and_forget_what_left_the_box() {
-    let mut normals = Normals::new(8);
-    for (w, h) in [(1, 1), (1, 30), (30, 1), (22, 21), (43, 17)] {
-        let values: Vec<f64> = (0..w * h).map(|_| normals.uniform()).collect();
-        for radius in [0, 1, 10] {
-            let means = box_mean(&values, w, radius);
-            for (p, mean) in means.iter().enumerate() {
-                let (x, y) = (p % w, p / w);
-                let mut sum = (0.0, 0.0);
-                for (q, value) in values.iter().enumerate() {
-                    if (q % w).abs_diff(x) <= radius && (q / w).abs_diff(y) <= radius {
-                        sum = (sum.0 + value, sum.1 + 1.0);
-                    }
-                }
-                assert!((mean - sum.0 / sum.1).abs() < 1e-12, "{w}×{h}, {radius}");
-            }
-        }
-    }
-    let mut row = vec![1e-9; 100];
-    let clean = box_mean(&row, 100, 10);
-    row[30] = 1e20;
-    let spoilt = box_mean(&row, 100, 10);
-    assert!((0..100usize).filter(|x| x.abs_diff(30) > 10).all(|x| clean[x] == spoilt[x]));
 }
 
 #[test]

@@ -246,7 +246,8 @@ fn parts_and_a_ready_made_flash_of_equal_content_agree() {
     let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, 40, 30).unwrap();
     let parts = scene.clone().with_guides(Guides::FlashParts).render(16, 7);
     let out = run(Params::default(), &parts);
-    let intensity = out.figures.iter().find(|(name, _)| name == "flash intensity").unwrap().1;
+    let told = |output: &Output| output.figures.iter().find(|f| f.name == "flash intensity").unwrap().value;
+    let intensity = told(&out);
     let Some(Flash::Parts { base, light, covariance }) = &parts.flash else { panic!("parts were asked for") };
     let mut ready = parts.clone();
     let image = flash::sum(&base.mean, &light.mean, intensity);
@@ -255,7 +256,7 @@ fn parts_and_a_ready_made_flash_of_equal_content_agree() {
     ready.flash = Some(Flash::Ready(estimate(image, variance)));
     assert_eq!(run(Params::default(), &ready).image, out.image);
     let doubled = run(Params { intensity_scale: 2.0, ..Params::default() }, &parts);
-    assert!(doubled.figures.contains(&("flash intensity".into(), 2.0 * intensity)));
+    assert_eq!(told(&doubled), 2.0 * intensity);
 }
 
 #[test]
@@ -271,7 +272,7 @@ fn diagnostics_show_guide_sets_and_first_step_without_changing_the_image() {
     let input = Input::new(&f).with_diagnostics(Diagnostics::On { probe: Some((20, 11)) });
     let full = method.denoise(&input).unwrap();
     assert_eq!(full.image, plain.image);
-    let find = |name: &str| &full.diagnostics.iter().find(|(n, _)| n == name).unwrap().1;
+    let find = |name: &str| &full.diagnostics.iter().find(|d| d.name == name).unwrap().image;
     assert!(find("guide image").same_shape(&f.color.mean));
     assert_ne!(find("after step 1"), &f.color.mean);
     for (step, side) in [("step 1", 7), ("step 2", 31)] {
@@ -311,13 +312,13 @@ fn parameters_out_of_range_are_named() {
         change(&mut params);
         VirtualFlash::new(params).unwrap_err()
     };
-    assert_eq!(bad(|p| p.steps = 3), "steps");
-    assert_eq!(bad(|p| p.first_window_radius_px = 33), "first_window_radius_px");
-    assert_eq!(bad(|p| p.first_confidence = 1.0), "first_confidence");
-    assert_eq!(bad(|p| p.second_confidence = 99.0), "second_confidence");
-    assert_eq!(bad(|p| p.second_sigma_ratio = f64::NAN), "second_sigma_ratio");
-    assert_eq!(bad(|p| p.patch_radius_px = 4), "patch_radius_px");
-    assert_eq!(bad(|p| p.kappa = 0.0), "kappa");
-    assert_eq!(bad(|p| p.color_kappa = f64::NAN), "color_kappa");
-    assert_eq!(bad(|p| p.luminance_clip_percentile = 0.0), "luminance_clip_percentile");
+    assert_eq!(bad(|p| p.steps = 3).parameter, "steps");
+    assert_eq!(bad(|p| p.first_window_radius_px = 33).parameter, "first_window_radius_px");
+    assert_eq!(bad(|p| p.first_confidence = 1.0).parameter, "first_confidence");
+    assert_eq!(bad(|p| p.second_confidence = 99.0).parameter, "second_confidence");
+    assert_eq!(bad(|p| p.second_sigma_ratio = f64::NAN).parameter, "second_sigma_ratio");
+    assert_eq!(bad(|p| p.patch_radius_px = 4).parameter, "patch_radius_px");
+    assert_eq!(bad(|p| p.kappa = 0.0).parameter, "kappa");
+    assert_eq!(bad(|p| p.color_kappa = f64::NAN).parameter, "color_kappa");
+    assert_eq!(bad(|p| p.luminance_clip_percentile = 0.0).parameter, "luminance_clip_percentile");
 }

@@ -1,10 +1,11 @@
-//! Variances of means: from samples, from halves, and the one scaled to the other (Sec. 4).
+//! Half buffers: two images of the same picture from disjoint samples, whose difference tells the noise of their mean.
 
 use noisefloor_frame::{Image, Samples};
-use noisefloor_kernels::nlm::MAX_VARIANCE;
 use rayon::prelude::*;
 
-/// Radius of the box over which the two variances are compared, pixels: 21×21.
+use crate::box_mean;
+
+/// Radius of the box over which the two variances are compared, pixels: 21×21 (rousselle2013rdfc, Sec. 4).
 const BOX_RADIUS: usize = 10;
 /// Guards the ratio of both box means against 0/0 where nothing is noisy.
 const GUARD: f64 = 1e-10;
@@ -13,13 +14,16 @@ const TAP: f64 = 0.1353;
 
 /// How much of a pixel's mean comes from half A, and the factor of (A−B)² that makes it the variance of the mean.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Shares {
+pub struct Shares {
+    /// n_A/n.
     pub a: f64,
+    /// n_A·n_B/n².
     pub square: f64,
 }
 
 /// Shares of pixel `p`: n_A/n and n_A·n_B/n², 1/2 and 1/4 for equal halves.
-pub(crate) fn shares(samples: &Samples, p: usize) -> Shares {
+#[must_use]
+pub fn shares(samples: &Samples, p: usize) -> Shares {
     let (a, b) = samples.halves_at(p);
     let (a, b) = (f64::from(a), f64::from(b));
     let n = a + b;
@@ -31,7 +35,8 @@ pub(crate) fn shares(samples: &Samples, p: usize) -> Shares {
 }
 
 /// Mean of both halves, weighted by their samples.
-pub(crate) fn mean_of_halves(halves: &[Image; 2], samples: &Samples) -> Image {
+#[must_use]
+pub fn mean_of_halves(halves: &[Image; 2], samples: &Samples) -> Image {
     let [a, b] = halves;
     let mut out = a.clone();
     for c in 0..a.channels() {
@@ -44,8 +49,9 @@ pub(crate) fn mean_of_halves(halves: &[Image; 2], samples: &Samples) -> Image {
     out
 }
 
-/// Variance of the mean from one squared difference of the halves: right on average, as noisy as one sample.
-fn half_variance(halves: &[Image; 2], samples: &Samples, channel: usize) -> Vec<f64> {
+/// Variance of the mean in one channel from one squared difference of the halves: right on average, as noisy as one sample.
+#[must_use]
+pub fn half_variance(halves: &[Image; 2], samples: &Samples, channel: usize) -> Vec<f64> {
     let (a, b) = (halves[0].plane(channel), halves[1].plane(channel));
     let square = |p: usize| {
         let d = f64::from(a[p]) - f64::from(b[p]);
@@ -54,64 +60,10 @@ fn half_variance(halves: &[Image; 2], samples: &Samples, channel: usize) -> Vec<
     (0..a.len()).into_par_iter().map(square).collect()
 }
 
-/// Mean of `values`, rows of `width`, over the box of `radius` pixels around each pixel, clipped at the border.
-///
-/// No value is ever taken off a sum again, so a bright pixel leaves nothing behind in sums that it is not in.
-#[must_use]
-pub fn box_mean(values: &[f64], width: usize, radius: usize) -> Vec<f64> {
-    if values.is_empty() || width == 0 {
-        return Vec::new();
-    }
-    let height = values.len() / width;
-    let mut rows = vec![0.0; values.len()];
-    rows.par_chunks_mut(width)
-        .zip(values.par_chunks(width))
-        .for_each(|(out, row)| line_sums(row, radius, out));
-    let mut out = vec![0.0; values.len()];
-    out.par_chunks_mut(width).enumerate().for_each(|(y, out)| {
-        let (first, last) = (y.saturating_sub(radius), (y + radius).min(height - 1));
-        for j in first..=last {
-            for (sum, value) in out.iter_mut().zip(&rows[j * width..]) {
-                *sum += value;
-            }
-        }
-        let tall = last - first + 1;
-        for (x, sum) in out.iter_mut().enumerate() {
-            let wide = (x + radius).min(width - 1) - x.saturating_sub(radius) + 1;
-            // The box has the pixel itself at least.
-            *sum /= (tall * wide) as f64;
-        }
-    });
-    out
-}
-
-/// Sums over 2·`radius`+1 neighbours in a line, zero outside: the end of one run of that length and the start of the
-/// next.
-fn line_sums(row: &[f64], radius: usize, out: &mut [f64]) {
-    let side = 2 * radius + 1;
-    let padded = (row.len() + 2 * radius).next_multiple_of(side);
-    let mut from_start = vec![0.0; padded];
-    from_start[radius..radius + row.len()].copy_from_slice(row);
-    let mut to_end = from_start.clone();
-    for i in 1..padded {
-        if i % side != 0 {
-            from_start[i] += from_start[i - 1];
-        }
-        let j = padded - 1 - i;
-        if !(j + 1).is_multiple_of(side) {
-            to_end[j] += to_end[j + 1];
-        }
-    }
-    for (x, sum) in out.iter_mut().enumerate() {
-        // A window that is exactly one run is in both.
-        *sum = if x.is_multiple_of(side) { to_end[x] } else { to_end[x] + from_start[x + side - 1] };
-    }
-}
-
 /// Sample variance of the mean scaled to the level of the two-buffer variance, per channel: the first has the
-/// structure, the second the right level under low-discrepancy sampling (Sec. 4).
+/// structure, the second the right level under low-discrepancy sampling (rousselle2013rdfc, Sec. 4). At least 0 and at most `most`.
 #[must_use]
-pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &Samples) -> Image {
+pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &Samples, most: f32) -> Image {
     let (width, height, channels) = (variance.width(), variance.height(), variance.channels());
     let mut out = Image::new(width, height, channels);
     for c in 0..channels {
@@ -120,16 +72,16 @@ pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &S
         let sample = box_mean(&plane, width, BOX_RADIUS);
         for (p, value) in out.plane_mut(c).iter_mut().enumerate() {
             let scaled = plane[p] * two[p] / (GUARD + sample[p]);
-            *value = scaled.clamp(0.0, f64::from(MAX_VARIANCE)) as f32;
+            *value = scaled.clamp(0.0, f64::from(most)) as f32;
         }
     }
     out
 }
 
 /// Two-buffer variance of the mean, smoothed over 3×3 pixels with a Gaussian of standard deviation 0.5 pixels, clipped
-/// at the border: the residual variance of something filtered (Sec. 5).
+/// at the border: the residual variance of something filtered (rousselle2013rdfc, Sec. 5). At most `most`.
 #[must_use]
-pub fn smoothed_half_variance(halves: &[Image; 2], samples: &Samples) -> Image {
+pub fn smoothed_half_variance(halves: &[Image; 2], samples: &Samples, most: f32) -> Image {
     let (width, height, channels) = (halves[0].width(), halves[0].height(), halves[0].channels());
     let mut out = Image::new(width, height, channels);
     for c in 0..channels {
@@ -147,7 +99,7 @@ pub fn smoothed_half_variance(halves: &[Image; 2], samples: &Samples) -> Image {
                 let p = y * width + x;
                 let above = y.checked_sub(1).map(|_| rows[p - width]);
                 let below = rows.get(p + width).copied();
-                *value = three(above, rows[p], below).min(f64::from(MAX_VARIANCE)) as f32;
+                *value = three(above, rows[p], below).min(f64::from(most)) as f32;
             }
         });
     }

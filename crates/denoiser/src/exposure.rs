@@ -1,30 +1,27 @@
 //! The exposure at which frames are filtered.
 
-use noisefloor_denoiser::{Input, Output};
 use noisefloor_frame::{Estimate, Frame, Image, Variance};
-use noisefloor_kernels::nlm::MIN_EPSILON;
 
-/// Largest value that goes to the engine. Its square and that times 10⁶ are within the engine's range.
-const BRIGHT: f32 = 1e12;
-/// ε of the text, for frames of a median luminance between ¼ and ½.
-const EPSILON: f64 = 1e-10;
+use crate::{Input, Output, Unit};
 
-/// Target and neighbours times a power of two that takes the target's median luminance to between ¼ and ½: what the
-/// method adds to variances and squared means (ε, 0.01) is meant for such values, and no result depends on the
-/// exposure that a frame came with. A power of two changes no digit.
+/// Target and neighbours times a power of two that takes the target's median luminance to between ¼ and ½: constants that a
+/// method adds to values or variances are then meant for such values, and no result depends on the exposure that a frame
+/// came with. A power of two changes no digit. Only the colour is scaled.
 #[derive(Debug)]
-pub(crate) struct Exposed {
+pub struct Exposed {
     target: Frame,
     before: Vec<Frame>,
     after: Vec<Frame>,
     factor: f64,
-    /// What of ε is left where the frame's brightest value keeps it from its exposure, above 0.
-    epsilon: f32,
+    /// 1, or less where the frame's brightest value keeps it from its exposure.
+    left: f64,
 }
 
 impl Exposed {
+    /// `brightest` is the largest value that the method takes: a frame with a brighter one goes to a lower exposure.
     /// Non-finite values are left for those who refuse them.
-    pub fn new(input: &Input<'_>) -> Self {
+    #[must_use]
+    pub fn new(input: &Input<'_>, brightest: f32) -> Self {
         let frames = || input.before.iter().chain([input.target]).chain(input.after);
         let images = frames().flat_map(|f| f.color.halves.iter().flatten().chain([&f.color.mean]));
         let finite = images.flat_map(|image| image.data().iter().map(|v| v.abs())).filter(|v| v.is_finite());
@@ -32,28 +29,30 @@ impl Exposed {
         // 2^(−2−⌊log₂⌋): exact, and within the range of the type for every positive value.
         let power = |typical: f32| (-2.0 - f64::from(typical).log2().floor()).exp2();
         let wanted = input.target.color.mean.median_luminance().map_or(1.0, power);
-        let factor = if f64::from(largest) * wanted > f64::from(BRIGHT) {
-            (-(f64::from(largest) / f64::from(BRIGHT)).log2().ceil()).exp2()
+        let factor = if f64::from(largest) * wanted > f64::from(brightest) {
+            (-(f64::from(largest) / f64::from(brightest)).log2().ceil()).exp2()
         } else {
             wanted
         };
         let dim = |frame: &Frame| Frame { color: exposed(&frame.color, factor), ..frame.clone() };
-        let epsilon = EPSILON * (factor / wanted).powi(2);
         Self {
             target: dim(input.target),
             before: input.before.iter().map(dim).collect(),
             after: input.after.iter().map(dim).collect(),
             factor,
-            epsilon: epsilon.max(f64::from(MIN_EPSILON)) as f32,
+            left: factor / wanted,
         }
     }
 
-    /// ε at this exposure.
-    pub fn epsilon(&self) -> f32 {
-        self.epsilon
+    /// What of the exposure is left: 1, or less where the brightest value keeps the frame from it. Constants in radiance are
+    /// to be multiplied by it, in squared radiance by its square.
+    #[must_use]
+    pub fn left(&self) -> f64 {
+        self.left
     }
 
     /// The input at this exposure.
+    #[must_use]
     pub fn input<'a>(&'a self, input: &Input<'_>) -> Input<'a> {
         Input {
             target: &self.target,
@@ -70,20 +69,24 @@ impl Exposed {
         if let Some(estimate) = &mut output.error_estimate {
             *estimate = scaled(estimate, square);
         }
+        for bound in &mut output.bounds {
+            bound.half_width = scaled(&bound.half_width, radiance);
+        }
         if let Some((_, image)) = &mut output.estimate_of {
             *image = scaled(image, radiance);
         }
-        for (name, image) in &mut output.diagnostics {
-            if name.starts_with("candidate") || name == "first pass" {
-                *image = scaled(image, radiance);
-            } else if name.starts_with("error estimate") || name.starts_with("variance of the colour") {
-                *image = scaled(image, square);
+        let factor = |unit| match unit {
+            Unit::Radiance => Some(radiance),
+            Unit::RadianceSquared => Some(square),
+            Unit::Pixels | Unit::None => None,
+        };
+        for diagnostic in &mut output.diagnostics {
+            if let Some(factor) = factor(diagnostic.unit) {
+                diagnostic.image = scaled(&diagnostic.image, factor);
             }
         }
-        for (name, value) in &mut output.figures {
-            if name.contains("error estimate") {
-                *value *= square;
-            }
+        for figure in &mut output.figures {
+            figure.value *= factor(figure.unit).unwrap_or(1.0);
         }
     }
 }
@@ -98,7 +101,7 @@ fn exposed(color: &Estimate, factor: f64) -> Estimate {
 }
 
 /// Times a factor, within the range of the type.
-pub(crate) fn scaled(image: &Image, factor: f64) -> Image {
+fn scaled(image: &Image, factor: f64) -> Image {
     let most = f64::from(f32::MAX);
     // A clamp leaves a NaN what it is.
     image.map(|v| (f64::from(v) * factor).clamp(-most, most) as f32)
