@@ -21,4 +21,5 @@ macro_rules! baselines {
 }
 
 baselines! {
+    dshl10,
 }

@@ -1,0 +1,77 @@
+#![doc = include_str!("README.md")]
+
+mod algorithm;
+mod params;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use noisefloor_denoiser::{
+    Citation, Cost, DenoiseError, Denoiser, Factory, Input, Invariance, MethodCard, Need, Output, ParamError, Parameters,
+    StageTimer,
+};
+use noisefloor_frame::FeatureId;
+
+use algorithm::filter;
+pub use params::{Halving, Params};
+
+const ID: &str = "dshl10";
+
+/// The source work.
+pub const CITATION: Citation = Citation::new(
+    "dammertz2010",
+    "H. Dammertz, D. Sewtz, J. Hanika, H. P. A. Lensch, Edge-Avoiding À-Trous Wavelet Transform for fast Global \
+     Illumination Filtering, High Performance Graphics 2010",
+);
+
+/// The edge-avoiding à-trous filter: see the module documentation.
+#[derive(Debug, Clone, Default)]
+pub struct ATrous {
+    params: Params,
+}
+
+impl ATrous {
+    /// Checks the parameters.
+    ///
+    /// # Errors
+    /// The first parameter that is out of range.
+    pub fn new(params: Params) -> Result<Self, ParamError> {
+        params.check()?;
+        Ok(Self { params })
+    }
+}
+
+/// Factory of [`ATrous`].
+#[must_use]
+pub fn method() -> Arc<dyn Factory> {
+    let summary = "five passes of 5×5 taps with growing gaps, stopped at edges of colour, normal and depth";
+    noisefloor_denoiser::method(ID, summary, Some(include_str!("README.md")), ATrous::new)
+}
+
+impl Denoiser for ATrous {
+    fn card(&self) -> MethodCard {
+        let mut card = MethodCard::new(ID, "Edge-avoiding à-trous", CITATION);
+        card.needs = vec![Need::Feature(FeatureId::Normal), Need::Feature(FeatureId::Depth)];
+        if self.params.demodulate {
+            card.needs.push(Need::Feature(FeatureId::Albedo));
+        }
+        card.cost = Cost::Second;
+        card.notes.push("depth in place of position".into());
+        if self.params.demodulate {
+            let floor = "albedo below 0.001 counts as that".to_owned();
+            card.varies_with.push((Invariance::FeatureUnits, floor));
+        }
+        card
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        input.check(&self.card())?;
+        let mut timer = StageTimer::start();
+        DenoiseError::refuse(ID, "a value is not finite", &input.target.color.mean, f32::is_finite)?;
+        let mut output = Output::from_image(filter(input.target, &self.params));
+        timer.finish("filter");
+        output.stages = timer.into_stages();
+        Ok(output)
+    }
+}
