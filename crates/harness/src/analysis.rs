@@ -19,6 +19,8 @@ mod series;
 mod standing;
 mod warnings;
 
+pub(crate) use number::median;
+
 use std::path::Path;
 
 use noisefloor_frame::{Finding, FindingKind, sorted_findings};

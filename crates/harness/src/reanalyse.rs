@@ -87,6 +87,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
     for record in &mut all {
         record.image.take_if(|path| damaged.contains(path));
         record.diagnostics.retain(|_, path| !damaged.contains(path));
+        record.log.take_if(|path| damaged.contains(path));
     }
     let mut summary = analyse(&study, &context, &all, dir, false);
     summary.findings = sorted_findings(kept.findings.into_iter().chain(summary.findings));

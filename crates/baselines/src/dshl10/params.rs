@@ -16,7 +16,7 @@ parameters! {
         /// Passes.
         levels: usize = 5, integer(1..=8).symbol("N");
         /// What squared differences of the colour are divided by at the first level, at a mean luminance of 0.5.
-        sigma_color: f64 = 1.0, above(0.0).symbol("σ_rt");
+        sigma_color: f64 = 0.1, above(0.0).symbol("σ_rt");
         /// How it falls from level to level.
         halve: Halving = Halving::Divisor, choice::<Halving>();
         /// The first level that looks at the colour: 1 lets isolated bright pixels be averaged away, which is not in the

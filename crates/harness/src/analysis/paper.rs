@@ -87,6 +87,9 @@ fn verdict(ours: &Interval, paper: PaperRatio) -> &'static str {
             (true, false) => "smaller gain than the paper's",
             (false, _) => "larger loss than the paper's",
         }
+    } else if (low..=high).contains(&1.0) && !(paper.low..=paper.high).contains(&1.0) {
+        // An effect is not confirmed by numbers that cannot tell it from none.
+        "undecided"
     } else {
         "agrees"
     }
@@ -118,6 +121,8 @@ mod tests {
         assert_eq!(told(0.1, 0.2, [0.3, 0.4]), "larger gain than the paper's");
         assert_eq!(told(0.5, 0.9, [0.3, 0.4]), "smaller gain than the paper's");
         assert_eq!(told(0.8, 1.2, [0.3, 0.4]), "smaller gain than the paper's", "1 is not excluded");
+        assert_eq!(told(0.003, 1.1, [0.034, 0.034]), "undecided", "neither the gain nor none is excluded");
+        assert_eq!(told(0.9, 1.1, [0.95, 1.05]), "agrees", "none is what the source says");
         assert_eq!(told(1.1, 1.2, [0.3, 0.4]), "opposite sign");
         assert_eq!(told(0.1, 0.9, [1.5, 1.5]), "opposite sign");
         assert_eq!(told(0.9, 1.2, [1.5, 1.5]), "smaller loss than the paper's");

@@ -5,6 +5,7 @@ use std::time::Instant;
 use noisefloor_denoiser::{DenoiseError, Diagnostic, Diagnostics, Input, Output, StageSeconds};
 use noisefloor_frame::Finding;
 
+use crate::analysis::median;
 use crate::fingerprint::attempt;
 use crate::plan::Row;
 use crate::record::Outcome;
@@ -56,10 +57,10 @@ pub(super) fn denoise(
         timed.push((own.unwrap_or(wall), output.stages.clone()));
         first.get_or_insert(output);
     }
-    let around = median(around);
+    let around = median(around.into_iter());
     let runs: Vec<f64> = timed.iter().map(|(seconds, _)| *seconds).collect();
     timed.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let seconds = median(runs.clone()).unwrap_or(0.0); // at least one run
+    let seconds = median(runs.iter().copied()).unwrap_or(0.0); // at least one run
     let stages = timed.swap_remove((timed.len() - 1) / 2).1;
     let diagnostics = match diagnostics {
         Some(probe) => {
@@ -71,17 +72,6 @@ pub(super) fn denoise(
     };
     let output = first.ok_or_else(|| Outcome::Failed { reason: "it was never run".into() })?;
     Ok(Denoised { output, seconds, around, runs, stages, diagnostics })
-}
-
-/// The middle one, or the mean of both in the middle.
-fn median(mut values: Vec<f64>) -> Option<f64> {
-    values.sort_by(f64::total_cmp);
-    let middle = values.len() / 2;
-    match values.len() {
-        0 => None,
-        n if n % 2 == 1 => Some(values[middle]),
-        _ => Some(0.5 * (values[middle - 1] + values[middle])),
-    }
 }
 
 /// What is missing, and why if that was found.
