@@ -422,7 +422,7 @@ pub struct PaperResult {
     pub paper: [f64; 2],
     /// Where the source says it.
     pub source: String,
-    /// `agrees` (our interval meets the source's range), `larger gain than the paper's`, `smaller gain than the
+    /// `agrees` (our interval meets the source's range, and not 1 as well where that does not), `larger gain than the paper's`, `smaller gain than the
     /// paper's`, `larger loss than the paper's` and `smaller loss than the paper's` where the source's ratio is not
     /// below 1, `opposite sign` (our interval and the source's range are on different sides of 1), `undecided` without
     /// an interval, `no number` without a ratio.
