@@ -2,6 +2,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::{Integrator, Maps};
+
 /// How samples are placed over a pixel and weighted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -38,6 +40,24 @@ pub struct Camera {
     pub vertical_fov_degrees: f32,
 }
 
+/// Rounds of samples, the first of them uniform, the others where they seemed to be needed.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Rounds {
+    /// How many.
+    pub count: u32,
+    /// Seconds that the decisions took where to place samples.
+    pub density_seconds: Option<f64>,
+}
+
+impl Provenance {
+    /// Which photon maps carried the light, if any did. A photon-mapped frame that does not say it, because it was rendered
+    /// alone and imported, counts as one whose maps the truth does not share.
+    #[must_use]
+    pub fn maps(&self) -> Option<Maps> {
+        self.photon_maps.or_else(|| (self.light == Some(Integrator::PhotonMapping)).then_some(Maps::Fresh))
+    }
+}
+
 /// Where a frame came from; every field is optional because other programs' files know less.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -46,8 +66,14 @@ pub struct Provenance {
     pub scene: Option<String>,
     /// Program and version that rendered it.
     pub renderer: Option<String>,
-    /// Light transport algorithm and its settings, such as `path depth=6`.
+    /// Light transport algorithm and its settings, such as `path depth=6`; for people.
     pub integrator: Option<String>,
+    /// The same, where it is one that this program knows.
+    pub light: Option<Integrator>,
+    /// Which photon maps carried the light, where the frame says it.
+    pub photon_maps: Option<Maps>,
+    /// How it was rendered in rounds, if samples were placed by what was seen.
+    pub rounds: Option<Rounds>,
     /// Sample sequence, such as `independent` or `owen-sobol`.
     pub sampler: Option<String>,
     /// Random seed.

@@ -5,7 +5,9 @@ use std::path::Path;
 
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::standard_names;
-use noisefloor_frame::{Camera, Counts, PixelFilter, Provenance, Samples, Sampling};
+use noisefloor_frame::{
+    Camera, Counts, Integrator, Maps, PixelFilter, Provenance, Rounds, Samples, Sampling,
+};
 
 use crate::IoError;
 
@@ -13,7 +15,7 @@ use crate::IoError;
 pub(crate) type Attributes = BTreeMap<String, AttributeValue>;
 
 /// Names with a meaning here. Anything else is kept as an extra.
-const OURS: [&str; 14] = [
+const OURS: [&str; 16] = [
     "scene",
     "renderer",
     "integrator",
@@ -28,7 +30,14 @@ const OURS: [&str; 14] = [
     "verticalFov",
     "renderSeconds",
     "renderThreads",
+    PHOTON_MAPS,
+    ROUNDS,
 ];
+
+/// Which photon maps carried the light.
+const PHOTON_MAPS: &str = "photon_maps";
+/// In how many rounds samples were placed.
+const ROUNDS: &str = "adaptive_rounds";
 
 /// Other programs refuse channel names above 31 bytes unless the file says that it has long names, which the writer
 /// derives from *attribute* names alone: this attribute has a long name.
@@ -70,6 +79,8 @@ pub(crate) fn of_frame(
     }
     put("seed", provenance.seed.map(integer));
     put("filter", provenance.filter.map(|filter| text(filter.name())));
+    put(PHOTON_MAPS, provenance.photon_maps.map(|maps| text(maps.name())));
+    put(ROUNDS, provenance.rounds.map(|rounds| text(&rounds.count.to_string())));
     // Not how long rendering took, nor on how many threads: equal frames are equal files.
     if let Some(camera) = &provenance.camera {
         check_camera(file, camera)?;
@@ -165,6 +176,13 @@ pub(crate) fn facts(file: &Path, attributes: &Attributes) -> Result<Facts, IoErr
     ] {
         *field = left.remove(name);
     }
+    provenance.light = provenance.integrator.as_deref().and_then(light);
+    provenance.photon_maps = left.get(PHOTON_MAPS).and_then(|name| Maps::from_name(name));
+    if provenance.photon_maps.is_some() {
+        left.remove(PHOTON_MAPS);
+    }
+    // How long the decisions took is no part of the frame, like other times.
+    provenance.rounds = take(&mut left, ROUNDS).map(|count| Rounds { count, density_seconds: None });
     provenance.seed = take(&mut left, "seed");
     provenance.render_seconds = take(&mut left, "renderSeconds");
     provenance.render_threads = take(&mut left, "renderThreads");
@@ -200,6 +218,14 @@ pub(crate) fn facts(file: &Path, attributes: &Attributes) -> Result<Facts, IoErr
     };
     provenance.extra = unescape(left);
     Ok(Facts { provenance, spp, spp_half_a, sampling })
+}
+
+/// The way of carrying light by the first word of its description.
+fn light(integrator: &str) -> Option<Integrator> {
+    match integrator.split_whitespace().next()? {
+        "path" => Some(Integrator::PathTracing),
+        name => Integrator::from_name(name),
+    }
 }
 
 /// The kind of sampling by the sampler's name: independent if its first word is `independent` or `random`, or if

@@ -6,8 +6,8 @@
 
 use glam::Vec3A;
 use kiddo::{ImmutableKdTree, SquaredEuclidean};
+use noisefloor_frame::PhotonSettings;
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
-use serde::{Deserialize, Serialize};
 
 use crate::RenderError;
 use crate::bsdf::Event;
@@ -19,60 +19,20 @@ use crate::request::DEEPEST;
 use crate::sampler::{Independent, Sampler, mix, pixel_key};
 use crate::surface::Interaction;
 
-/// What makes a pair of photon maps.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PhotonSettings {
-    /// Light paths for the global map, in 1..=2^26.
-    pub paths: u32,
-    /// Light paths for the caustic map, in 1..=2^26.
-    pub caustic_paths: u32,
-    /// Radius of a look at the global map as a fraction of the scene's radius, in [1e-6, 1].
-    pub radius: f32,
-    /// Radius of a look at the caustic map in pixels, as wide as they are where they meet the surface; in [1e-6, 1000].
-    pub caustic_pixels: f32,
-    /// The largest radius of a look at the caustic map as a fraction of the scene's radius, in [1e-6, 1].
-    pub caustic_radius: f32,
-}
-
-impl Default for PhotonSettings {
-    fn default() -> Self {
-        Self {
-            paths: 200_000,
-            caustic_paths: 1_000_000,
-            radius: 0.02,
-            caustic_pixels: 2.0,
-            caustic_radius: 0.02,
+/// Refuses numbers of paths and radii that no map can have.
+fn check(settings: &PhotonSettings) -> Result<(), RenderError> {
+    let paths = [("paths", settings.paths), ("caustic-paths", settings.caustic_paths)];
+    if let Some((parameter, value)) = paths.into_iter().find(|(_, v)| !(1..=1 << 26).contains(v)) {
+        return Err(wrong(parameter, value.to_string(), "1 to 67108864 light paths"));
+    }
+    let radii = [("radius", settings.radius, 1.0), ("caustic-radius", settings.caustic_radius, 1.0)];
+    let radii = radii.into_iter().chain([("caustic-pixels", settings.caustic_pixels, 1000.0)]);
+    for (parameter, value, most) in radii {
+        if !(1e-6..=most).contains(&value) {
+            return Err(wrong(parameter, value.to_string(), &format!("in 1e-6..={most}")));
         }
     }
-}
-
-impl PhotonSettings {
-    /// All three radii times `factor`.
-    #[must_use]
-    pub fn scaled(self, factor: f32) -> Self {
-        Self {
-            radius: self.radius * factor,
-            caustic_pixels: self.caustic_pixels * factor,
-            caustic_radius: self.caustic_radius * factor,
-            ..self
-        }
-    }
-
-    fn check(&self) -> Result<(), RenderError> {
-        let paths = [("paths", self.paths), ("caustic-paths", self.caustic_paths)];
-        if let Some((parameter, value)) = paths.into_iter().find(|(_, v)| !(1..=1 << 26).contains(v)) {
-            return Err(wrong(parameter, value.to_string(), "1 to 67108864 light paths"));
-        }
-        let radii = [("radius", self.radius, 1.0), ("caustic-radius", self.caustic_radius, 1.0)];
-        let radii = radii.into_iter().chain([("caustic-pixels", self.caustic_pixels, 1000.0)]);
-        for (parameter, value, most) in radii {
-            if !(1e-6..=most).contains(&value) {
-                return Err(wrong(parameter, value.to_string(), &format!("in 1e-6..={most}")));
-            }
-        }
-        Ok(())
-    }
+    Ok(())
 }
 
 fn wrong(parameter: &'static str, value: String, expected: &str) -> RenderError {
@@ -175,7 +135,7 @@ impl PhotonMaps {
     /// [`RenderError::InvalidRequest`] for settings out of range, and for a scene with a medium or with moving bodies,
     /// whose photons this mapper does not follow.
     pub fn new(scene: &Prepared, settings: &PhotonSettings, seed: u64) -> Result<Self, RenderError> {
-        settings.check()?;
+        check(settings)?;
         let models = scene.models();
         if models.medium || !scene.bodies.is_empty() {
             let what = if models.medium { "a medium" } else { "moving bodies" };

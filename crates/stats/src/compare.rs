@@ -16,10 +16,11 @@ pub enum Direction {
 }
 
 /// Which pairs are compared.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// Every pair.
+    #[default]
     AllPairs,
     /// Each row with the best one. The best is chosen from the same data, which the adjustment does not
     /// account for: with several equally good rows it finds a difference more often than the level says.

@@ -1,0 +1,68 @@
+//! The metric table, as a study sees it.
+
+use noisefloor_metrics::{Better, METRICS, Metric};
+
+use crate::summary::MetricInfo;
+
+/// Ids of all metrics, in the order of display.
+#[must_use]
+pub fn ids() -> Vec<String> {
+    METRICS.iter().map(|metric| metric.id.to_owned()).collect()
+}
+
+fn of(id: &str) -> Option<&'static Metric> {
+    METRICS.iter().find(|metric| metric.id == id)
+}
+
+/// The metric shown first unless a study says otherwise: `relmse` where it is listed, else the first that ranks rows.
+#[must_use]
+pub fn primary(listed: &[String]) -> String {
+    let preferred = listed.iter().find(|id| *id == "relmse");
+    preferred.or(listed.iter().find(|id| ranks(id))).cloned().unwrap_or_default()
+}
+
+/// How to read a metric.
+#[must_use]
+pub fn info(id: &str) -> Option<MetricInfo> {
+    let metric = of(id)?;
+    Some(MetricInfo {
+        id: metric.id.into(),
+        name: metric.name.into(),
+        formula: metric.formula_text(),
+        lower_is_better: metric.better == Better::Lower,
+        ideal: match metric.better {
+            Better::CloserTo(ideal) => Some(ideal),
+            Better::Lower | Better::Higher => None,
+        },
+        unit: metric.unit.into(),
+        reference_noise_removed: metric.reference_noise_removed,
+        order: metric.order,
+    })
+}
+
+/// 2 for squared errors, 1 for their roots, `None` where plain Monte Carlo has no fixed rate.
+#[must_use]
+pub fn order(id: &str) -> Option<u32> {
+    of(id)?.order
+}
+
+/// The squared error that a metric is, or is the root of; `None` where plain Monte Carlo has no fixed rate.
+#[must_use]
+pub fn squared(id: &str) -> Option<&str> {
+    match order(id)? {
+        2 => Some(id),
+        _ => (id == "rmse").then_some("mse"),
+    }
+}
+
+/// Whether smaller is better; `false` for an unknown metric.
+#[must_use]
+pub fn lower_is_better(id: &str) -> bool {
+    of(id).is_some_and(|metric| metric.better == Better::Lower)
+}
+
+/// Whether rows can be ranked by it; `false` for an unknown metric.
+#[must_use]
+pub fn ranks(id: &str) -> bool {
+    of(id).is_some_and(|metric| matches!(metric.better, Better::Lower | Better::Higher))
+}
