@@ -6,18 +6,16 @@ use noisefloor_denoiser::Claim;
 use noisefloor_frame::{Frame, Image, Reference, Sampling};
 use noisefloor_metrics::{Classes, Measurer, MetricError, block_bootstrap};
 use noisefloor_stats::{Level, ShapeError};
+use noisefloor_study::{Bits, Key, key_of};
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
 use serde_json::{Value, json};
 
-use crate::cache::{Key, key_of};
-use crate::fingerprint::Bits;
-use crate::measure::{Measure, ratio_within_se};
-use crate::run::BOOTSTRAP_IMAGES;
-use crate::source::PixelClasses;
+use crate::cell::{Measure, PixelClasses};
+use crate::error::{BOOTSTRAP_IMAGES, ratio_within_se};
 
 /// Hash of all that the measuring of a cell gives on a fixed frame, output and truth, for each way in which a truth states
 /// its noise: metrics, their standard errors, classes, coverage, bounds, enclosures, estimates of error.
-pub(crate) fn measuring() -> &'static str {
+pub fn measuring() -> &'static str {
     static MEASURING: OnceLock<Key> = OnceLock::new();
     MEASURING.get_or_init(|| {
         // Nothing here can fail but for a mistake in this file, which its test would show.

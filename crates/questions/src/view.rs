@@ -2,25 +2,29 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_harness::RowFrames;
-use noisefloor_harness::summary::{CellSummary, Comparison, MetricInfo, Progress, SceneSummary, Summary};
-
-use crate::plot::style::Looks;
+use noisefloor_study::exhibit::{RowKind, RowLook};
+use noisefloor_study::summary::{
+    CellSummary, Comparison, MethodSummary, MetricInfo, Progress, SceneSummary, Summary,
+};
+use noisefloor_study::{BASELINE, RowFrames};
 
 /// A summary with its look-up tables.
-pub(crate) struct Index<'a> {
+#[derive(Debug)]
+pub struct View<'a> {
+    /// The summary.
     pub summary: &'a Summary,
-    pub looks: Looks,
     cells: BTreeMap<(&'a str, u32, &'a str), &'a CellSummary>,
     comparisons: BTreeMap<(&'a str, u32, &'a str), &'a Comparison>,
 }
 
-impl<'a> Index<'a> {
-    pub(crate) fn new(summary: &'a Summary) -> Self {
+impl<'a> View<'a> {
+    /// Makes the look-up tables.
+    #[must_use]
+    pub fn new(summary: &'a Summary) -> Self {
         let cells = summary.cells.iter().map(|c| ((c.scene.as_str(), c.spp, c.label.as_str()), c)).collect();
         let comparisons =
             summary.comparisons.iter().map(|c| ((c.scene.as_str(), c.spp, c.metric.as_str()), c)).collect();
-        Self { summary, looks: Looks::of(&summary.methods), cells, comparisons }
+        Self { summary, cells, comparisons }
     }
 
     pub(crate) fn cell(&self, scene: &str, spp: u32, label: &str) -> Option<&'a CellSummary> {
@@ -60,7 +64,7 @@ impl<'a> Index<'a> {
         self.summary
             .methods
             .iter()
-            .find(|m| m.method == "mc" && m.frames == RowFrames::Uniform)
+            .find(|m| m.method == BASELINE && m.frames == RowFrames::Uniform)
             .map(|m| m.label.as_str())
     }
 
@@ -141,4 +145,60 @@ impl<'a> Index<'a> {
     pub(crate) fn scene_title(&self, id: &str) -> String {
         self.scene(id).map_or_else(|| id.to_owned(), |s| s.title.clone())
     }
+
+    /// Place of a row in the study; that of the first for one that is not there.
+    pub(crate) fn row(&self, label: &str) -> usize {
+        self.summary.methods.iter().position(|m| m.label == label).unwrap_or(0)
+    }
+
+    /// How the rows look: a guarded row takes the colour of the row that it guards, one on frames of its own that of the
+    /// same method on the study's.
+    pub(crate) fn looks(&self) -> Vec<RowLook> {
+        let methods = &self.summary.methods;
+        let kind = |method: &MethodSummary| match inner(method, methods) {
+            Some(of) if method.frames == RowFrames::Uniform => RowKind::Guarded(of),
+            Some(of) => RowKind::OtherFrames(of),
+            None if method.method == BASELINE && method.frames == RowFrames::Uniform => RowKind::Baseline,
+            None => RowKind::Plain,
+        };
+        methods.iter().map(|m| RowLook { label: m.label.clone(), kind: kind(m) }).collect()
+    }
+
+    /// Scene ids as parts of file names, in the order of the scenes: letters, digits, `-` and `_`, made unique by their
+    /// position.
+    pub(crate) fn file_names(&self) -> Vec<String> {
+        let mut names: Vec<String> = Vec::new();
+        for (i, scene) in self.summary.scenes.iter().enumerate() {
+            let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
+            let mut name: String = scene.id.chars().map(safe).take(60).collect();
+            if name.is_empty() || names.contains(&name) {
+                name = format!("{name}-{}", i + 1);
+            }
+            names.push(name);
+        }
+        names
+    }
+
+    /// Whether the study wants charts of this kind.
+    pub(crate) fn draws(&self, kind: &str) -> bool {
+        let chosen = &self.summary.study.figures;
+        chosen.is_empty() || chosen.iter().any(|figure| figure == kind)
+    }
+}
+
+/// Place of the row that this one is a variant of, if both are rows of the study: `guarded(x) more` guards `x more`, else a
+/// row of the method `x`; a row on frames of its own belongs to the same method and parameters on the study's.
+fn inner(method: &MethodSummary, methods: &[MethodSummary]) -> Option<usize> {
+    if method.frames != RowFrames::Uniform {
+        let same = |m: &MethodSummary| {
+            m.frames == RowFrames::Uniform && (&m.method, &m.params) == (&method.method, &method.params)
+        };
+        return methods.iter().position(same);
+    }
+    let (name, suffix) =
+        method.label.strip_prefix("guarded(").and_then(|l| l.rsplit_once(')')).unwrap_or_default();
+    let label = format!("{name}{suffix}");
+    let id = method.method.strip_prefix("guarded(").and_then(|m| m.strip_suffix(')'));
+    let by_label = methods.iter().position(|m| !name.is_empty() && m.label == label);
+    by_label.or_else(|| methods.iter().position(|m| Some(m.method.as_str()) == id))
 }

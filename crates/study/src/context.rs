@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::{Finding, Sampling};
+use noisefloor_frame::{Finding, Integrator, Sampling};
 use serde::{Deserialize, Serialize};
 
 use crate::summary::{Environment, MethodSummary};
@@ -88,6 +88,18 @@ pub struct SceneContext {
     /// What was found about the scene's files or reference, apart from single frames.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
+}
+
+impl SceneContext {
+    /// Whether the frames were lit by photon maps that their reference does not share. Earlier programs said it in the
+    /// settings alone.
+    #[must_use]
+    pub fn fresh_maps(&self) -> bool {
+        let says = |name: &str, start: &str| self.settings.get(name).is_some_and(|v| v.starts_with(start));
+        let told =
+            || says("light", Integrator::PhotonMapping.name()) && says("photon maps", Maps::Fresh.name());
+        self.maps.map_or_else(told, |maps| maps == Maps::Fresh)
+    }
 }
 
 /// A reference as it was used.

@@ -36,7 +36,7 @@ pub use warning::{Warning, WarningKind};
 pub const SUMMARY_SCHEMA: u32 = 1;
 
 /// What the study was and where it ran.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
     /// [`SUMMARY_SCHEMA`] when written.
     pub schema: u32,

@@ -1,14 +1,18 @@
 use noisefloor_stats::{BoundVerdict, Interval, bound_verdict};
 
-use crate::analysis::coverage::mark;
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, mean, rate};
-use crate::context::SceneContext;
-use crate::record::{BoundCount, Record};
-use crate::summary::BoundSummary;
+use crate::coverage::mark;
+use crate::records::Index;
+use crate::records::{LEVEL, mean, rate};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::record::{BoundCount, Record};
+use noisefloor_study::summary::{BoundState, BoundSummary, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.bounds = bounds(index);
+}
 
 /// Violations per scene, level, row, claim and class, over replicates.
-pub(super) fn bounds(index: &Index<'_>) -> Vec<BoundSummary> {
+fn bounds(index: &Index<'_>) -> Vec<BoundSummary> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
@@ -60,9 +64,9 @@ fn one(
     };
     let verdict = match bound_verdict(&judged, first.alpha) {
         // A single number without an interval may lie anywhere by chance.
-        _ if judged.low.is_none() => "undecided",
-        BoundVerdict::Holds => "holds",
-        BoundVerdict::Fails => "fails",
+        _ if judged.low.is_none() => BoundState::Undecided,
+        BoundVerdict::Holds => BoundState::Holds,
+        BoundVerdict::Fails => BoundState::Fails,
     };
     Some(BoundSummary {
         scene: scene.id.clone(),
@@ -76,7 +80,7 @@ fn one(
         violations_uncorrected: share(|c| c.violations_uncorrected),
         missed: share(|c| c.violations_missed),
         mean_ratio: mean(counts.iter().filter_map(|c| c.mean_ratio)),
-        verdict: verdict.into(),
+        verdict,
         mark: mark(scene, spp),
     })
 }

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::record::{Outcome, Record};
+use noisefloor_study::record::{Outcome, Record};
+use noisefloor_study::summary::{Warning, WarningKind};
 
 /// A sentence if finished cells are of several builds. Their methods and metrics gave the same numbers on fixed inputs, or
 /// the cells would not stand beside each other; their times may differ.
-pub(super) fn warning(records: &[Record]) -> Option<String> {
+pub(super) fn warning(records: &[Record]) -> Option<Warning> {
     let mut rows: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
     for record in records.iter().filter(|record| record.outcome == Outcome::Done) {
         let of_build = rows.entry(&record.build).or_default();
@@ -24,9 +25,12 @@ pub(super) fn warning(records: &[Record]) -> Option<String> {
             format!("{build} ({})", labels.join(", "))
         })
         .collect();
-    Some(format!(
-        "rows come from {} builds of the program, which agree on what methods and metrics give; times may differ: {}",
-        rows.len(),
-        told.join(", ")
+    Some(Warning::new(
+        WarningKind::Builds,
+        format!(
+            "rows come from {} builds of the program, which agree on what methods and metrics give; times may differ: {}",
+            rows.len(),
+            told.join(", ")
+        ),
     ))
 }

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::context::{Context, PlannedScene};
-use crate::record::Record;
-use crate::study::{SceneSource, Study};
-use crate::summary::{Missing, Progress};
+use noisefloor_study::context::{Context, PlannedScene};
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{Missing, Progress};
+use noisefloor_study::{SceneSource, Study};
 
 /// Planned and finished cells; `None` where the plan is not known: frames of a folder whose list was not kept.
 pub(super) fn progress(study: &Study, context: &Context, records: &[Record]) -> Option<Progress> {
@@ -31,7 +31,7 @@ fn planned(study: &Study, context: &Context) -> Option<Vec<PlannedScene>> {
     if !context.plan.is_empty() {
         return Some(context.plan.clone());
     }
-    let of_scene = |spec: &crate::study::SceneSpec| {
+    let of_scene = |spec: &noisefloor_study::SceneSpec| {
         let replicates = match &spec.source {
             SceneSource::Folder(_) => {
                 context.scenes.iter().find(|scene| scene.id == spec.id)?.replicates.clone()

@@ -1,11 +1,12 @@
-use noisefloor_frame::Sampling;
+//! Statements that a reader must see before the numbers.
 
-use crate::analysis::cells::monte_carlo;
-use crate::analysis::index::Index;
-use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio, times};
-use crate::context::SceneContext;
-use crate::source::fresh_maps;
-use crate::summary::Summary;
+use noisefloor_frame::Sampling;
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::summary::{CellSummary, Status, Summary, Warning, WarningKind};
+
+use crate::cell::void;
+use crate::error::monte_carlo;
+use crate::records::{Index, LONG_ENOUGH, reference_ratio, times};
 
 /// Standard errors by which a level may differ from plain Monte Carlo's c/n before it is told.
 const DEVIATION: f64 = 5.0;
@@ -14,8 +15,8 @@ const DEVIATION: f64 = 5.0;
 /// unless a method is broken or claims too much.
 #[must_use]
 pub fn violations(summary: &Summary) -> Vec<String> {
-    let worst = |cell: &crate::summary::CellSummary| cell.enclosure_worst_ratio.filter(|ratio| *ratio > 1.0);
-    let sentence = |cell: &crate::summary::CellSummary| {
+    let worst = |cell: &CellSummary| cell.enclosure_worst_ratio.filter(|ratio| *ratio > 1.0);
+    let sentence = |cell: &CellSummary| {
         let ratio = worst(cell)?;
         Some(format!(
             "{} on {} at {} spp left an interval that it claims never to leave, by a factor of {ratio:.4}",
@@ -26,27 +27,30 @@ pub fn violations(summary: &Summary) -> Vec<String> {
 }
 
 /// What a reader must see first, most serious first.
-pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
-    let mut out = violations(summary);
+pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<Warning> {
+    let broken = violations(summary).into_iter();
+    let mut out: Vec<Warning> = broken.map(|text| Warning::new(WarningKind::Enclosure, text)).collect();
     out.extend(failed(summary));
     if summary.progress.is_none() {
-        out.push(
+        out.push(Warning::new(
+            WarningKind::UnknownPlan,
             "how many cells the study asks for is unknown (the list of its folders' frames was not kept): whether it is finished \
-             cannot be told"
-                .into(),
-        );
+             cannot be told",
+        ));
     }
     out.extend(left_out(summary));
     if index.baseline().is_none() {
-        out.push(
-            "no row is plain Monte Carlo: ratios, equal-error multipliers and coverage are absent".into(),
-        );
+        out.push(Warning::new(
+            WarningKind::NoBaseline,
+            "no row is plain Monte Carlo: ratios, equal-error multipliers and coverage are absent",
+        ));
     }
     for row in &summary.methods {
         let ran = summary.cells.iter().any(|cell| cell.label == row.label);
         let gave = summary.estimates.iter().any(|estimate| estimate.label == row.label);
         if row.estimates_error && ran && !gave {
-            out.push(format!("{}: claims an estimate of its own error and gave none", row.label));
+            let text = "claims an estimate of its own error and gave none";
+            out.push(Warning::about(WarningKind::NoEstimate, &row.label, text));
         }
     }
     for scene in index.scenes() {
@@ -54,15 +58,18 @@ pub(super) fn warnings(index: &Index<'_>, summary: &Summary) -> Vec<String> {
     }
     // About times, not about inputs: here alone, so that it is said once.
     if summary.environment.profile == "debug" {
-        out.push("times are of a debug build and say nothing about the methods".into());
+        out.push(Warning::new(
+            WarningKind::Times,
+            "times are of a debug build and say nothing about the methods",
+        ));
     }
     out
 }
 
 /// Rows that ended in an error, those with the same one together; what a finding says of the frame is not said again.
-fn failed(summary: &Summary) -> Vec<String> {
+fn failed(summary: &Summary) -> Vec<Warning> {
     let told: Vec<String> = summary.findings.iter().map(ToString::to_string).collect();
-    let failed = summary.skipped.iter().filter(|entry| entry.status == "failed");
+    let failed = summary.skipped.iter().filter(|entry| entry.status == Status::Failed);
     let fresh = failed.filter(|entry| !told.contains(&entry.reason));
     let mut groups = Groups::default();
     for entry in fresh {
@@ -70,13 +77,14 @@ fn failed(summary: &Summary) -> Vec<String> {
         groups.add(entry.label.as_str(), (&entry.scene, spp, &entry.reason));
     }
     let line = |(labels, (scene, spp, reason)): (Vec<&str>, (&String, Vec<String>, &String))| {
-        format!("{} failed on {scene} at {} spp: {reason}", labels.join(", "), spp.join(", "))
+        let about = format!("{} failed on {scene} at {} spp", labels.join(", "), spp.join(", "));
+        Warning::about(WarningKind::Failed, about, reason)
     };
     groups.0.into_iter().map(line).collect()
 }
 
 /// Rows that are not ranked: levels with the same reason together, then rows.
-fn left_out(summary: &Summary) -> Vec<String> {
+fn left_out(summary: &Summary) -> Vec<Warning> {
     let mut levels = Groups::default();
     for cell in &summary.cells {
         if let Some(reason) = &cell.left_out {
@@ -89,7 +97,8 @@ fn left_out(summary: &Summary) -> Vec<String> {
     }
     let line = |(labels, (scene, spp, reason)): (Vec<&str>, (&String, Vec<String>, &String))| {
         let are = if labels.len() == 1 { "is" } else { "are" };
-        format!("{} on {scene} at {} spp {are} not ranked: {reason}", labels.join(", "), spp.join(", "))
+        let about = format!("{} on {scene} at {} spp {are} not ranked", labels.join(", "), spp.join(", "));
+        Warning::about(WarningKind::NotRanked, about, reason)
     };
     rows.0.into_iter().map(line).collect()
 }
@@ -112,67 +121,88 @@ impl<T, K: PartialEq> Groups<T, K> {
     }
 }
 
-fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mut Vec<String>) {
+fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mut Vec<Warning>) {
     let id = &scene.id;
+    let mut tell = |kind, text: String| out.push(Warning::about(kind, id, text));
     let top = scene.replicates.keys().copied().max().unwrap_or(1);
     let ratio = reference_ratio(scene, top);
     if ratio == 0.0 {
-        out.push(format!(
-            "{id}: how many samples the reference has is unknown; coverage and bounds may be off"
-        ));
+        tell(
+            WarningKind::ShortReference,
+            format!("how many samples the reference has is unknown; coverage and bounds may be off"),
+        );
     } else if ratio < LONG_ENOUGH {
-        out.push(format!(
-            "{id}: the reference has only {} times the samples of the {top} spp level; coverage and bounds are marked \
+        tell(
+            WarningKind::ShortReference,
+            format!(
+                "the reference has only {} times the samples of the {top} spp level; coverage and bounds are marked \
              where it has less than {LONG_ENOUGH:.0} times",
-            times(ratio)
-        ));
+                times(ratio)
+            ),
+        );
     }
     if scene.sampling == Sampling::LowDiscrepancy {
-        out.push(format!(
-            "{id}: coverage and bounds are left out ({})",
-            crate::measure::void(scene.sampling).unwrap_or("")
-        ));
+        tell(
+            WarningKind::NoIntervals,
+            format!("coverage and bounds are left out ({})", void(scene.sampling).unwrap_or("")),
+        );
     }
-    let fresh = fresh_maps(&scene.settings);
+    let fresh = scene.fresh_maps();
     if fresh {
-        out.push(format!(
-            "{id}: coverage and bounds are left out (photon maps are new in each replicate, and the variance between a frame's samples does \
+        tell(
+            WarningKind::NoIntervals,
+            format!(
+                "coverage and bounds are left out (photon maps are new in each replicate, and the variance between a frame's samples does \
              not know their error)"
-        ));
+            ),
+        );
     }
     let counted = summary.coverage.iter().any(|row| row.scene == *id);
     if scene.sampling == Sampling::Independent && !fresh && top >= 2 && index.baseline().is_some() && !counted
     {
-        out.push(format!(
-            "{id}: coverage and bounds are left out: the frames state no variance, or sample counts that differ between pixels and so \
+        tell(
+            WarningKind::NoIntervals,
+            format!(
+                "coverage and bounds are left out: the frames state no variance, or sample counts that differ between pixels and so \
              depend on the data"
-        ));
+            ),
+        );
     }
     if scene.replicates.values().all(|&n| n == 1) {
-        out.push(format!(
-            "{id}: one replicate per level; intervals are from blocks within the image and say nothing about other random seeds, \
+        tell(
+            WarningKind::OneReplicate,
+            format!(
+                "one replicate per level; intervals are from blocks within the image and say nothing about other random seeds, \
              and rows cannot be told apart"
-        ));
+            ),
+        );
     }
     let cells = || summary.cells.iter().filter(|cell| cell.scene == *id);
     let invalid = cells().map(|cell| cell.invalid_input_pixels).max().unwrap_or(0);
     if invalid > 0 {
-        out.push(format!(
-            "{id}: up to {invalid} input pixels per level were not finite and are in no number"
-        ));
+        tell(
+            WarningKind::FewerPixels,
+            format!("up to {invalid} input pixels per level were not finite and are in no number"),
+        );
     }
     let fewer = cells().filter(|cell| cell.left_out.is_none() && cell.pixels < cell.pixels_of);
     if let Some(least) = fewer.min_by_key(|cell| cell.pixels) {
-        out.push(format!(
-            "{id}: errors are over as few as {} of {} pixels, those where input, output and reference are finite",
-            least.pixels, least.pixels_of
-        ));
+        tell(
+            WarningKind::FewerPixels,
+            format!(
+                "errors are over as few as {} of {} pixels, those where input, output and reference are finite",
+                least.pixels, least.pixels_of
+            ),
+        );
     }
     for (metric, fit) in monte_carlo(index, scene) {
         if let Some(deviation) = fit.worst_deviation.filter(|deviation| *deviation > DEVIATION) {
-            out.push(format!(
-                "{id}: {metric} of plain Monte Carlo deviates from c/n by {deviation:.1} standard errors; multipliers may be off"
-            ));
+            tell(
+                WarningKind::Law,
+                format!(
+                    "{metric} of plain Monte Carlo deviates from c/n by {deviation:.1} standard errors; multipliers may be off"
+                ),
+            );
         }
     }
 }

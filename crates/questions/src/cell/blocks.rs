@@ -8,31 +8,31 @@ const AT_ONCE: usize = 250;
 
 /// A division of an image into blocks of about 32×32 pixels.
 #[derive(Debug)]
-pub(super) struct Blocks {
+pub(crate) struct Blocks {
     of_pixel: Vec<usize>,
     count: usize,
 }
 
 impl Blocks {
-    pub(super) fn new(width: usize, height: usize) -> Self {
+    pub(crate) fn new(width: usize, height: usize) -> Self {
         let along = |size: usize| ((size + BLOCK_SIDE / 2) / BLOCK_SIDE).max(1);
         let (columns, rows) = (along(width), along(height));
         let block = |p: usize| (p / width * rows / height) * columns + p % width * columns / width;
         Self { of_pixel: (0..width * height).map(block).collect(), count: columns * rows }
     }
 
-    pub(super) fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.count
     }
 
     /// Block of a row-major pixel.
-    pub(super) fn of(&self, pixel: usize) -> usize {
+    pub(crate) fn of(&self, pixel: usize) -> usize {
         self.of_pixel[pixel]
     }
 
     /// One tally per block; `count` gives that of everything, then those of the groups. `None` if the shapes disagree,
     /// which the same count over classes has already told.
-    pub(super) fn tallies<T>(
+    pub(crate) fn tallies<T>(
         &self,
         count: impl Fn(Groups<'_>) -> Result<Vec<T>, ShapeError>,
     ) -> Option<Vec<T>> {
@@ -52,7 +52,7 @@ impl Blocks {
 
 /// Standard error of Σhits/Σtotals: the spread of block sums about the common rate, the linear form of a bootstrap
 /// over the blocks. `None` with fewer than 2 blocks that have anything.
-pub(super) fn within_se<T>(tallies: &[T], hits_and_total: impl Fn(&T) -> (u64, u64)) -> Option<f64> {
+pub(crate) fn within_se<T>(tallies: &[T], hits_and_total: impl Fn(&T) -> (u64, u64)) -> Option<f64> {
     let blocks: Vec<(f64, f64)> = tallies
         .iter()
         .map(hits_and_total)

@@ -1,11 +1,8 @@
 //! One class per pixel, so that a mean over an image cannot hide where a method fails.
 
-use std::path::Path;
-
 use noisefloor_frame::{Image, Reference, Variance, luminance};
 
-use crate::error::HarnessError;
-use crate::fingerprint::Bits;
+use noisefloor_study::Bits;
 
 /// Relative step of luminance between neighbours that makes an edge.
 const EDGE_STEP: f64 = 0.1;
@@ -16,11 +13,11 @@ const EDGE_SIGNIFICANCE: f64 = 4.0;
 
 /// A class for every pixel.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct PixelClasses {
+pub struct PixelClasses {
     /// Names, indexed by the entries of `of_pixel`.
-    pub(crate) names: Vec<String>,
+    pub names: Vec<String>,
     /// Row-major.
-    pub(crate) of_pixel: Vec<u8>,
+    pub of_pixel: Vec<u8>,
 }
 
 impl From<noisefloor_synthetic::Classes> for PixelClasses {
@@ -38,7 +35,8 @@ impl PixelClasses {
     /// A pixel is an edge if its luminance differs from that of one of its four neighbours by more than 10 % of the
     /// brighter one (at least 0.01 of radiance counts as brightness), and by more than four standard errors of the
     /// reference's difference where the reference states its variance.
-    pub(crate) fn from_reference(reference: &Reference) -> Self {
+    #[must_use]
+    pub fn from_reference(reference: &Reference) -> Self {
         let edges = edges(reference);
         Self {
             names: vec![Self::EDGE.into(), Self::FLAT.into()],
@@ -47,7 +45,8 @@ impl PixelClasses {
     }
 
     /// The first of the scene's own classes that a pixel belongs to, else `edge` or `flat`.
-    pub(crate) fn from_masks(masks: &[(&str, Vec<bool>)], reference: &Reference) -> Self {
+    #[must_use]
+    pub fn from_masks(masks: &[(&str, Vec<bool>)], reference: &Reference) -> Self {
         let mut names: Vec<String> = masks.iter().map(|(name, _)| (*name).to_owned()).collect();
         let edge = names.len() as u8;
         names.extend([Self::EDGE.into(), Self::FLAT.into()]);
@@ -63,7 +62,7 @@ impl PixelClasses {
     }
 
     /// Adds names and classes to a hash.
-    pub(crate) fn add_to(&self, bits: &mut Bits) {
+    pub fn add_to(&self, bits: &mut Bits) {
         bits.number(self.names.len() as u64);
         self.names.iter().for_each(|name| bits.text(name));
         bits.number(self.of_pixel.len() as u64);
@@ -71,22 +70,32 @@ impl PixelClasses {
     }
 
     /// As an image of indices, for the study's folder.
-    pub(crate) fn to_image(&self, width: usize, height: usize) -> Image {
+    #[must_use]
+    pub fn to_image(&self, width: usize, height: usize) -> Image {
         Image::from_fn(width, height, 1, |_, x, y| f32::from(self.of_pixel[y * width + x]))
     }
 
     /// Inverse of [`PixelClasses::to_image`].
-    pub(crate) fn from_image(names: Vec<String>, image: &Image, path: &Path) -> Result<Self, HarnessError> {
+    ///
+    /// # Errors
+    /// If a pixel has an index without a name.
+    pub fn from_image(names: Vec<String>, image: &Image) -> Result<Self, UnknownClass> {
         let of_pixel: Vec<u8> = image.plane(0).iter().map(|&v| v as u8).collect();
-        if let Some(bad) = of_pixel.iter().find(|&&c| usize::from(c) >= names.len()) {
-            return Err(HarnessError::Kept {
-                path: path.into(),
-                line: None,
-                message: format!("pixel class {bad} has no name among {}", names.join(", ")),
-            });
+        match of_pixel.iter().find(|&&class| usize::from(class) >= names.len()) {
+            Some(&class) => Err(UnknownClass { class, names }),
+            None => Ok(Self { names, of_pixel }),
         }
-        Ok(Self { names, of_pixel })
     }
+}
+
+/// An index of a pixel class that has no name.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("pixel class {class} has no name among {}", names.join(", "))]
+pub struct UnknownClass {
+    /// The index.
+    pub class: u8,
+    /// The names that there are.
+    pub names: Vec<String>,
 }
 
 fn edges(reference: &Reference) -> Vec<bool> {
@@ -147,9 +156,7 @@ mod tests {
         let names: Vec<&str> =
             classes.of_pixel.iter().map(|&c| classes.names[usize::from(c)].as_str()).collect();
         assert_eq!(names, ["flat", "emitter", "glossy", "flat"]);
-        let again =
-            PixelClasses::from_image(classes.names.clone(), &classes.to_image(4, 1), Path::new("x.exr"))
-                .unwrap();
+        let again = PixelClasses::from_image(classes.names.clone(), &classes.to_image(4, 1)).unwrap();
         assert_eq!(again, classes);
     }
 }

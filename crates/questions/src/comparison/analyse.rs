@@ -1,19 +1,22 @@
 use noisefloor_stats::{self as stats, Direction, compare};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, told};
-use crate::analysis::series::{by_replicate, reference_share};
-use crate::context::SceneContext;
-use crate::study::Family;
-use crate::summary::{Comparison, PairResult, Source};
+use crate::records::Index;
+use crate::records::{LEVEL, told};
+use crate::records::{by_replicate, reference_share};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::summary::{Comparison, PairResult, Source, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.comparisons = comparisons(index);
+}
 
 /// Rows against each other, per scene, level and metric, over the replicates that all of them have; none where fewer
 /// than two can be ranked.
-pub(super) fn comparisons(index: &Index<'_>) -> Vec<Comparison> {
+fn comparisons(index: &Index<'_>) -> Vec<Comparison> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
-            for metric in index.study.metrics.iter().filter(|id| crate::metric::ranks(id)) {
+            for metric in index.study.metrics.iter().filter(|id| noisefloor_study::metric::ranks(id)) {
                 out.extend(one(index, scene, spp, metric));
             }
         }
@@ -42,15 +45,12 @@ fn one(index: &Index<'_>, scene: &SceneContext, spp: u32, metric: &str) -> Optio
     }
     let rows: Vec<stats::Row<'_>> =
         values.iter().zip(&noise).map(|(values, reference)| stats::Row { values, reference }).collect();
-    let direction = if crate::metric::lower_is_better(metric) {
+    let direction = if noisefloor_study::metric::lower_is_better(metric) {
         Direction::LowerIsBetter
     } else {
         Direction::HigherIsBetter
     };
-    let family = match index.study.comparison {
-        Family::AllPairs => stats::Family::AllPairs,
-        Family::WithBest => stats::Family::WithBest,
-    };
+    let family = index.study.comparison;
     let found = compare(&rows, direction, family, LEVEL);
     let named = |indices: &[usize]| indices.iter().map(|&i| labels[i].clone()).collect();
     Some(Comparison {
@@ -59,7 +59,7 @@ fn one(index: &Index<'_>, scene: &SceneContext, spp: u32, metric: &str) -> Optio
         metric: metric.to_owned(),
         ranking: named(&found.ranking),
         best_group: named(&found.best_group),
-        family: index.study.comparison.name().into(),
+        family,
         pairs: found
             .pairs
             .iter()

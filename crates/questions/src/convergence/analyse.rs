@@ -1,13 +1,17 @@
 use noisefloor_stats::convergence;
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, told};
-use crate::analysis::series::series;
-use crate::study::RowFrames;
-use crate::summary::{SlopeSummary, Source};
+use crate::records::Index;
+use crate::records::series;
+use crate::records::{LEVEL, told};
+use noisefloor_study::RowFrames;
+use noisefloor_study::summary::{SlopeSummary, Source, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.slopes = slopes(index);
+}
 
 /// Slope and verdict per scene, row and metric that has a rate; none where fewer than two levels have a positive error.
-pub(super) fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
+fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         // Rows of equal time have the same samples at every level.
@@ -15,7 +19,7 @@ pub(super) fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
             index.rows().iter().filter(|row| !matches!(row.summary.frames, RowFrames::EqualTime { .. }))
         {
             for metric in &index.study.metrics {
-                let Some(order) = crate::metric::order(metric) else { continue };
+                let Some(order) = noisefloor_study::metric::order(metric) else { continue };
                 let label = &row.summary.label;
                 let found = convergence(&series(index, scene, label, metric), order, LEVEL);
                 let Some(slope) = found.slope else { continue };
@@ -24,7 +28,7 @@ pub(super) fn slopes(index: &Index<'_>) -> Vec<SlopeSummary> {
                     label: label.clone(),
                     metric: metric.clone(),
                     slope: told(slope.interval, Source::Replicates, None),
-                    verdict: found.verdict.name().into(),
+                    verdict: found.verdict,
                     sentence: found.sentence,
                     bias: found
                         .bias

@@ -1,12 +1,12 @@
-use crate::analysis::index::Index;
-use crate::analysis::number::rate;
-use crate::analysis::scenes::{LONG_ENOUGH, reference_ratio, times};
-use crate::context::SceneContext;
-use crate::record::{CoverageCount, Record};
-use crate::summary::CoverageSummary;
+use crate::records::Index;
+use crate::records::rate;
+use crate::records::{LONG_ENOUGH, reference_ratio, times};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::record::{CoverageCount, Record};
+use noisefloor_study::summary::{CoverageSummary, Summary};
 
 /// Why a count against the truth must be read with care, if so.
-pub(super) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
+pub(crate) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
     let ratio = reference_ratio(scene, spp);
     if ratio >= LONG_ENOUGH {
         return None;
@@ -18,8 +18,12 @@ pub(super) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
     })
 }
 
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.coverage = coverage(index);
+}
+
 /// Coverage per scene, level, confidence and class, over replicates.
-pub(super) fn coverage(index: &Index<'_>) -> Vec<CoverageSummary> {
+fn coverage(index: &Index<'_>) -> Vec<CoverageSummary> {
     let Some(baseline) = index.baseline() else { return Vec::new() };
     let mut out = Vec::new();
     for scene in index.scenes() {

@@ -1,12 +1,16 @@
 //! Rows that get as much time as another: the samples that they had, and those that this run's times imply.
 
-use crate::analysis::index::Index;
-use crate::analysis::number::median;
-use crate::study::RowFrames;
-use crate::summary::EqualTime;
+use crate::records::Index;
+use crate::records::median;
+use noisefloor_study::RowFrames;
+use noisefloor_study::summary::{EqualTime, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.equal_time = equal_time(index);
+}
 
 /// One per scene × level × row of equal time that ran together with its other row.
-pub(super) fn equal_time(index: &Index<'_>) -> Vec<EqualTime> {
+fn equal_time(index: &Index<'_>) -> Vec<EqualTime> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {

@@ -2,16 +2,20 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_stats::{MonteCarloFit, equal_error_multiplier, monte_carlo_constant};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, bias, mean, median, metric, told, value};
-use crate::analysis::series::{error_ratio, reference_share, series};
-use crate::context::{Row, SceneContext};
-use crate::record::Record;
-use crate::source::fresh_maps;
-use crate::summary::{CellSummary, Interval, Source};
+use crate::records::Index;
+use crate::records::{LEVEL, bias, mean, median, metric, told, value};
+use crate::records::{error_ratio, reference_share, series};
+use noisefloor_study::context::{RowContext, SceneContext};
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{CellSummary, Interval, Source, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.cells = cells(index);
+    summary.skipped = index.skipped();
+}
 
 /// Averages over replicates, per scene, level and row.
-pub(super) fn cells(index: &Index<'_>) -> Vec<CellSummary> {
+fn cells(index: &Index<'_>) -> Vec<CellSummary> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         let fits = monte_carlo(index, scene);
@@ -28,18 +32,18 @@ pub(super) fn cells(index: &Index<'_>) -> Vec<CellSummary> {
 }
 
 /// Id of a squared error to the constant of plain Monte Carlo's error = c/n.
-pub(super) type Fits = BTreeMap<String, MonteCarloFit>;
+pub(crate) type Fits = BTreeMap<String, MonteCarloFit>;
 
 /// Fits the squared errors of the baseline, whose expectation is exactly c/n if samples are independent.
-pub(super) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
+pub(crate) fn monte_carlo(index: &Index<'_>, scene: &SceneContext) -> Fits {
     let Some(baseline) = index.baseline() else { return Fits::new() };
     // With new photon maps in each replicate the expectation is c/n and the error of the maps.
-    if crate::measure::void(scene.sampling).is_some() || fresh_maps(&scene.settings) {
+    if crate::cell::void(scene.sampling).is_some() || scene.fresh_maps() {
         return Fits::new();
     }
     // The root of a squared error needs as many samples as that.
     let squared: BTreeSet<&str> =
-        index.study.metrics.iter().filter_map(|id| crate::metric::squared(id)).collect();
+        index.study.metrics.iter().filter_map(|id| noisefloor_study::metric::squared(id)).collect();
     squared
         .into_iter()
         .filter_map(|id| {
@@ -67,7 +71,7 @@ struct Cell<'a> {
     index: &'a Index<'a>,
     scene: &'a SceneContext,
     spp: u32,
-    row: &'a Row,
+    row: &'a RowContext,
     records: &'a [&'a Record],
 }
 
@@ -134,7 +138,8 @@ impl Cell<'_> {
     fn ratios(&self, class: Option<&str>) -> BTreeMap<String, Interval> {
         let Some(baseline) = self.index.baseline() else { return BTreeMap::new() };
         let of_baseline = self.index.records(self.scene, self.spp, &baseline.summary.label);
-        let errors = self.index.study.metrics.iter().filter(|id| crate::metric::lower_is_better(id));
+        let errors =
+            self.index.study.metrics.iter().filter(|id| noisefloor_study::metric::lower_is_better(id));
         if self.row.summary.label == baseline.summary.label {
             // Certain, whatever the noise: the reference's share would not cancel in the general formula.
             return errors.map(|id| (id.clone(), itself(self.records))).collect();
@@ -160,7 +165,7 @@ impl Cell<'_> {
             .metrics
             .iter()
             .filter_map(|id| {
-                let squared = crate::metric::squared(id)?;
+                let squared = noisefloor_study::metric::squared(id)?;
                 let fit = fits.get(squared)?;
                 let errors: Vec<f64> = self.records.iter().filter_map(|r| value(r, None, squared)).collect();
                 let reference = reference_share(self.records, None, squared);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use noisefloor_frame::{Image, Reference};
 use noisefloor_metrics::{ErrorKind, MetricError, error_map};
 
-use crate::measure::blocks::Blocks;
+use crate::cell::Blocks;
 
 /// Metric id to the standard error of the logarithm of error(test)/error(baseline): the spread of each block's share
 /// of the one error minus its share of the other, the linear form of a bootstrap that draws the same blocks for both.

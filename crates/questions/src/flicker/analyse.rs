@@ -1,12 +1,17 @@
 use noisefloor_stats::{ReferenceShare, paired_ratio, replicate_interval};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, mean, told};
-use crate::flicker::{Corrected, Flicker, OverTime};
-use crate::summary::{FlickerSummary, Interval, Source};
+use crate::records::Index;
+use crate::records::{LEVEL, mean, told};
+use noisefloor_study::summary::{FlickerSummary, Interval, Source, Summary};
+use noisefloor_study::{Corrected, Flicker, OverTime};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.flicker = flicker(index);
+}
 
 /// Flicker per sequence, level and row, over replicates.
-pub(super) fn flicker(index: &Index<'_>, measured: &[Flicker]) -> Vec<FlickerSummary> {
+fn flicker(index: &Index<'_>) -> Vec<FlickerSummary> {
+    let measured = index.flicker;
     let mut out = Vec::new();
     for (name, frames) in index.study.sequences() {
         let scenes: Vec<String> = frames.iter().map(|scene| scene.id.clone()).collect();

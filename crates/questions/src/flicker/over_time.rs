@@ -9,30 +9,7 @@
 //! (4·S_ab·v + 2·v²)/(T−1), S_ab the covariance of d_t^a and d_t^b over the frames, estimated in the same way.
 
 use noisefloor_frame::{Image, Reference, Variance};
-use serde::{Deserialize, Serialize};
-
-/// Numbers over the frames, means over pixels and channels.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct OverTime {
-    /// Unbiased variance of the error over the frames, less the references' variance.
-    pub(crate) variance: Corrected,
-    /// Squared error, less the references' variance.
-    pub(crate) squared_error: Corrected,
-    /// The references' variance, if all state it.
-    pub(crate) reference_variance: Option<f64>,
-    /// Covariance of what the references contribute to `variance` and to that of the output it was compared beside.
-    pub(crate) covariance: Option<f64>,
-}
-
-/// A mean that the references' noise was taken out of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Corrected {
-    pub(crate) value: f64,
-    /// Standard error that the references contribute, common to all replicates.
-    pub(crate) reference_se: f64,
-    /// The same for an output without any error of its own.
-    pub(crate) floor: f64,
-}
+use noisefloor_study::{Corrected, OverTime};
 
 /// References of all frames.
 pub(super) struct Truth {

@@ -2,15 +2,19 @@ use std::collections::BTreeSet;
 
 use noisefloor_stats::{self as stats, ReferenceShare, paired_effect, replicate_interval};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, told};
-use crate::analysis::series::reference_share;
-use crate::measure::ALL;
-use crate::record::{EstimateCheck, EstimateMeans, Record};
-use crate::summary::{EstimateBin, EstimateSummary, Interval, Source};
+use crate::cell::ALL;
+use crate::records::Index;
+use crate::records::reference_share;
+use crate::records::{LEVEL, told};
+use noisefloor_study::record::{EstimateCheck, EstimateMeans, Record};
+use noisefloor_study::summary::{Calibration, EstimateBin, EstimateSummary, Interval, Source, Summary};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.estimates = estimates(index);
+}
 
 /// Estimated against measured squared error per scene, level, row and class, over replicates.
-pub(super) fn estimates(index: &Index<'_>) -> Vec<EstimateSummary> {
+fn estimates(index: &Index<'_>) -> Vec<EstimateSummary> {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
@@ -85,7 +89,7 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
         class: class.to_owned(),
         estimated: mean(&estimated, 0.0)?,
         measured: mean(&measured, reference)?,
-        verdict: verdict(&interval, effect.is_ratio).into(),
+        verdict: verdict(&interval, effect.is_ratio),
         effect: interval,
         is_ratio: effect.is_ratio,
         deciles: (0..bins).filter_map(bin).collect(),
@@ -93,13 +97,13 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
     })
 }
 
-fn verdict(effect: &Interval, is_ratio: bool) -> &'static str {
+fn verdict(effect: &Interval, is_ratio: bool) -> Calibration {
     let equal = if is_ratio { 1.0 } else { 0.0 };
     match (effect.low, effect.high) {
-        (Some(low), _) if low > equal => "too pessimistic",
-        (_, Some(high)) if high < equal => "too optimistic",
-        (Some(_), Some(_)) => "calibrated",
-        _ => "undecided",
+        (Some(low), _) if low > equal => Calibration::Pessimistic,
+        (_, Some(high)) if high < equal => Calibration::Optimistic,
+        (Some(_), Some(_)) => Calibration::Calibrated,
+        _ => Calibration::Undecided,
     }
 }
 
@@ -122,11 +126,11 @@ mod tests {
             };
             verdict(&interval, is_ratio)
         };
-        assert_eq!(of(Some(0.9), Some(1.1), true), "calibrated");
-        assert_eq!(of(Some(0.5), Some(0.9), true), "too optimistic");
-        assert_eq!(of(Some(1.1), Some(1.9), true), "too pessimistic");
-        assert_eq!(of(Some(-0.5), Some(-0.1), false), "too optimistic");
-        assert_eq!(of(Some(0.1), Some(0.9), false), "too pessimistic");
-        assert_eq!(of(None, None, true), "undecided");
+        assert_eq!(of(Some(0.9), Some(1.1), true), Calibration::Calibrated);
+        assert_eq!(of(Some(0.5), Some(0.9), true), Calibration::Optimistic);
+        assert_eq!(of(Some(1.1), Some(1.9), true), Calibration::Pessimistic);
+        assert_eq!(of(Some(-0.5), Some(-0.1), false), Calibration::Optimistic);
+        assert_eq!(of(Some(0.1), Some(0.9), false), Calibration::Pessimistic);
+        assert_eq!(of(None, None, true), Calibration::Undecided);
     }
 }

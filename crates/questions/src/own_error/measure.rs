@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use noisefloor_frame::Image;
+use noisefloor_study::record::{EstimateCheck, EstimateMeans, Record};
 
-use crate::measure::Measure;
-use crate::record::{EstimateCheck, EstimateMeans};
+use crate::cell::{Cell, Measure, MeasureError};
 
 /// Bins by rank of the estimate.
 const BINS: usize = 10;
@@ -35,11 +35,26 @@ impl Sums {
     }
 }
 
+/// Of the image that the estimate is about: the output, unless the method says otherwise.
+pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+    let Some(estimate) = &cell.output.error_estimate else { return Ok(()) };
+    let (of, mut about) = match &cell.output.estimate_of {
+        None => (None, cell.image.clone()),
+        Some((name, image)) => (Some(name.clone()), image.clone()),
+    };
+    cell.hygiene.mark_invalid(&mut about);
+    let squared = cell.measurer.squared_errors(&about)?;
+    let check = cell.measure.estimate(estimate, &squared);
+    record.error_estimate = check.map(|check| EstimateCheck { of, ..check });
+    Ok(())
+}
+
 impl Measure<'_> {
     /// Compares an estimate with the squared errors that [`noisefloor_metrics::Measurer::squared_errors`] gives, both
     /// per pixel and channel. Pixel-channels without a measured error take no part. `None` if none are left, or if the
     /// sizes differ.
-    pub(crate) fn estimate(&self, estimate: &Image, squared: &[f64]) -> Option<EstimateCheck> {
+    #[must_use]
+    pub fn estimate(&self, estimate: &Image, squared: &[f64]) -> Option<EstimateCheck> {
         let pixels = self.classes.of_pixel.len();
         if pixels == 0 || estimate.data().len() != squared.len() || !squared.len().is_multiple_of(pixels) {
             return None;
@@ -110,7 +125,7 @@ mod tests {
     use noisefloor_frame::{Estimate, Frame, Reference, Samples, Sampling};
 
     use super::*;
-    use crate::source::PixelClasses;
+    use crate::cell::PixelClasses;
 
     fn check(estimate: Image, squared: &[f64], within: bool) -> Option<EstimateCheck> {
         let (w, h) = (estimate.width(), estimate.height());

@@ -1,11 +1,15 @@
-use crate::analysis::index::Index;
-use crate::analysis::series::{by_replicate, error_ratio};
-use crate::context::SceneContext;
-use crate::study::{PaperComparison, PaperRatio};
-use crate::summary::{Interval, PaperResult};
+use crate::records::Index;
+use crate::records::{by_replicate, error_ratio};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::summary::{Agreement, Interval, PaperResult, Summary};
+use noisefloor_study::{PaperComparison, PaperRatio};
+
+pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
+    summary.paper = paper(index);
+}
 
 /// Ratios beside the source work's, in the order of the study's comparisons, scenes and levels.
-pub(super) fn paper(index: &Index<'_>) -> Vec<PaperResult> {
+fn paper(index: &Index<'_>) -> Vec<PaperResult> {
     let mut out = Vec::new();
     for compare in &index.study.compare {
         for scene in index.scenes() {
@@ -52,9 +56,9 @@ fn one(
         .into_iter()
         .find_map(|label| Some(format!("`{label}`: {}", index.left_out(scene, spp, label)?)));
     let verdict = match &ours {
-        Some(_) if left_out.is_some() => "undecided",
+        Some(_) if left_out.is_some() => Agreement::Undecided,
         Some(ours) => verdict(ours, paper),
-        None => "no number",
+        None => Agreement::NoNumber,
     };
     PaperResult {
         what: compare.what.clone(),
@@ -63,7 +67,7 @@ fn one(
         row: compare.row.clone(),
         over: compare.over.clone(),
         metric: compare.metric.clone(),
-        verdict: verdict.into(),
+        verdict,
         reason: if ours.is_none() { Some(reason()) } else { left_out },
         ours,
         paper: [paper.low, paper.high],
@@ -73,34 +77,34 @@ fn one(
 
 /// Our interval against the source's range. Without an interval nothing is said: a single number can be anywhere by
 /// chance.
-fn verdict(ours: &Interval, paper: PaperRatio) -> &'static str {
-    let (Some(low), Some(high)) = (ours.low, ours.high) else { return "undecided" };
+fn verdict(ours: &Interval, paper: PaperRatio) -> Agreement {
+    let (Some(low), Some(high)) = (ours.low, ours.high) else { return Agreement::Undecided };
     if high < paper.low {
         match (paper.low > 1.0, high < 1.0) {
-            (true, true) => "opposite sign",
-            (true, false) => "smaller loss than the paper's",
-            (false, _) => "larger gain than the paper's",
+            (true, true) => Agreement::Opposite,
+            (true, false) => Agreement::SmallerLoss,
+            (false, _) => Agreement::LargerGain,
         }
     } else if low > paper.high {
         match (paper.high < 1.0, low > 1.0) {
-            (true, true) => "opposite sign",
-            (true, false) => "smaller gain than the paper's",
-            (false, _) => "larger loss than the paper's",
+            (true, true) => Agreement::Opposite,
+            (true, false) => Agreement::SmallerGain,
+            (false, _) => Agreement::LargerLoss,
         }
     } else if (low..=high).contains(&1.0) && !(paper.low..=paper.high).contains(&1.0) {
         // An effect is not confirmed by numbers that cannot tell it from none.
-        "undecided"
+        Agreement::Undecided
     } else {
-        "agrees"
+        Agreement::Agrees
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::summary::Source;
+    use noisefloor_study::summary::{Source, Summary};
 
-    fn told(low: f64, high: f64, paper: [f64; 2]) -> &'static str {
+    fn told(low: f64, high: f64, paper: [f64; 2]) -> Agreement {
         let ours = Interval {
             value: 0.5 * (low + high),
             standard_error: None,
@@ -116,19 +120,23 @@ mod tests {
 
     #[test]
     fn words_follow_from_where_the_interval_lies() {
-        assert_eq!(told(0.3, 0.5, [0.4, 0.4]), "agrees");
-        assert_eq!(told(0.3, 0.5, [0.5, 0.9]), "agrees");
-        assert_eq!(told(0.1, 0.2, [0.3, 0.4]), "larger gain than the paper's");
-        assert_eq!(told(0.5, 0.9, [0.3, 0.4]), "smaller gain than the paper's");
-        assert_eq!(told(0.8, 1.2, [0.3, 0.4]), "smaller gain than the paper's", "1 is not excluded");
-        assert_eq!(told(0.003, 1.1, [0.034, 0.034]), "undecided", "neither the gain nor none is excluded");
-        assert_eq!(told(0.9, 1.1, [0.95, 1.05]), "agrees", "none is what the source says");
-        assert_eq!(told(1.1, 1.2, [0.3, 0.4]), "opposite sign");
-        assert_eq!(told(0.1, 0.9, [1.5, 1.5]), "opposite sign");
-        assert_eq!(told(0.9, 1.2, [1.5, 1.5]), "smaller loss than the paper's");
-        assert_eq!(told(1.8, 2.0, [1.5, 1.5]), "larger loss than the paper's");
-        assert_eq!(told(1.8, 2.0, [0.8, 1.2]), "larger loss than the paper's");
-        assert_eq!(told(0.2, 0.3, [0.8, 1.2]), "larger gain than the paper's");
+        assert_eq!(told(0.3, 0.5, [0.4, 0.4]), Agreement::Agrees);
+        assert_eq!(told(0.3, 0.5, [0.5, 0.9]), Agreement::Agrees);
+        assert_eq!(told(0.1, 0.2, [0.3, 0.4]), Agreement::LargerGain);
+        assert_eq!(told(0.5, 0.9, [0.3, 0.4]), Agreement::SmallerGain);
+        assert_eq!(told(0.8, 1.2, [0.3, 0.4]), Agreement::SmallerGain, "1 is not excluded");
+        assert_eq!(
+            told(0.003, 1.1, [0.034, 0.034]),
+            Agreement::Undecided,
+            "neither the gain nor none is excluded"
+        );
+        assert_eq!(told(0.9, 1.1, [0.95, 1.05]), Agreement::Agrees, "none is what the source says");
+        assert_eq!(told(1.1, 1.2, [0.3, 0.4]), Agreement::Opposite);
+        assert_eq!(told(0.1, 0.9, [1.5, 1.5]), Agreement::Opposite);
+        assert_eq!(told(0.9, 1.2, [1.5, 1.5]), Agreement::SmallerLoss);
+        assert_eq!(told(1.8, 2.0, [1.5, 1.5]), Agreement::LargerLoss);
+        assert_eq!(told(1.8, 2.0, [0.8, 1.2]), Agreement::LargerLoss);
+        assert_eq!(told(0.2, 0.3, [0.8, 1.2]), Agreement::LargerGain);
     }
 
     #[test]
@@ -143,6 +151,6 @@ mod tests {
             source: Source::None,
             below: None,
         };
-        assert_eq!(verdict(&ours, PaperRatio { low: 2.0, high: 2.0 }), "undecided");
+        assert_eq!(verdict(&ours, PaperRatio { low: 2.0, high: 2.0 }), Agreement::Undecided);
     }
 }

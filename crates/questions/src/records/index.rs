@@ -1,24 +1,36 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::analysis::standing::Standing;
-use crate::context::{Context, Row, SceneContext};
-use crate::record::{Outcome, Record};
-use crate::study::{RowFrames, Study};
-use crate::summary::Skipped;
+use super::standing::Standing;
+use noisefloor_study::context::{Context, RowContext, SceneContext};
+use noisefloor_study::record::{Outcome, Record};
+use noisefloor_study::summary::{Skipped, Status};
+use noisefloor_study::{Flicker, RowFrames, Study};
 
 /// Finished cells by scene, level and row, in the order of the study.
-pub(super) struct Index<'a> {
-    pub(super) study: &'a Study,
-    pub(super) context: &'a Context,
+#[derive(Debug)]
+pub struct Index<'a> {
+    pub(crate) study: &'a Study,
+    pub(crate) context: &'a Context,
     done: BTreeMap<(String, u32, String), Vec<&'a Record>>,
     /// The same, of ranked rows only the replicates that all of them have.
     comparable: BTreeMap<(String, u32, String), Vec<&'a Record>>,
     standings: BTreeMap<(String, u32), Standing>,
     ended: Vec<&'a Record>,
+    /// All, in the order of the plan.
+    pub(crate) all: &'a [Record],
+    /// What was measured over the frames of sequences.
+    pub(crate) flicker: &'a [Flicker],
+    /// Whether they are of a recorded study, which keeps no images.
+    pub(crate) recorded: bool,
 }
 
 impl<'a> Index<'a> {
-    pub(super) fn new(study: &'a Study, context: &'a Context, records: &'a [Record]) -> Self {
+    pub(crate) fn new(
+        (study, context): (&'a Study, &'a Context),
+        records: &'a [Record],
+        flicker: &'a [Flicker],
+        recorded: bool,
+    ) -> Self {
         let mut done: BTreeMap<_, Vec<&Record>> = BTreeMap::new();
         let mut ended = Vec::new();
         for record in records {
@@ -46,61 +58,62 @@ impl<'a> Index<'a> {
                 records.retain(|record| standing.common.contains(&record.replicate));
             }
         }
-        Self { study, context, done, comparable, standings, ended }
+        Self { study, context, done, comparable, standings, ended, all: records, flicker, recorded }
     }
 
-    pub(super) fn scenes(&self) -> &'a [SceneContext] {
+    pub(crate) fn scenes(&self) -> &'a [SceneContext] {
         &self.context.scenes
     }
 
-    pub(super) fn rows(&self) -> &'a [Row] {
+    pub(crate) fn rows(&self) -> &'a [RowContext] {
         &self.context.methods
     }
 
     /// The row that stands for plain Monte Carlo, if the study has one.
-    pub(super) fn baseline(&self) -> Option<&'a Row> {
-        let plain =
-            |row: &&Row| row.summary.method == crate::BASELINE && row.summary.frames == RowFrames::Uniform;
+    pub(crate) fn baseline(&self) -> Option<&'a RowContext> {
+        let plain = |row: &&RowContext| {
+            row.summary.method == noisefloor_study::BASELINE && row.summary.frames == RowFrames::Uniform
+        };
         self.rows().iter().find(plain)
     }
 
     /// All levels of all scenes, ascending.
-    pub(super) fn levels(&self) -> Vec<u32> {
+    pub(crate) fn levels(&self) -> Vec<u32> {
         let all: BTreeSet<u32> =
             self.scenes().iter().flat_map(|scene| scene.replicates.keys().copied()).collect();
         all.into_iter().collect()
     }
 
     /// Levels of a scene, ascending.
-    pub(super) fn levels_of(&self, scene: &'a SceneContext) -> impl Iterator<Item = u32> + use<'a> {
+    pub(crate) fn levels_of(&self, scene: &'a SceneContext) -> impl Iterator<Item = u32> + use<'a> {
         scene.replicates.keys().copied()
     }
 
     /// Replicates whose numbers can be set beside those of other rows: of a ranked row those that all ranked rows of
     /// the level have, of another all that ran. By number; empty if none did.
-    pub(super) fn records(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
+    pub(crate) fn records(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
         self.comparable.get(&(scene.id.clone(), spp, label.to_owned())).map_or(&[], Vec::as_slice)
     }
 
     /// All replicates that ran, by number: for what must hold in every one of them.
-    pub(super) fn every_record(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
+    pub(crate) fn every_record(&self, scene: &SceneContext, spp: u32, label: &str) -> &[&'a Record] {
         self.done.get(&(scene.id.clone(), spp, label.to_owned())).map_or(&[], Vec::as_slice)
     }
 
     /// Why a row takes no part in the ranking of a level, if so.
-    pub(super) fn left_out(&self, scene: &SceneContext, spp: u32, label: &str) -> Option<&str> {
+    pub(crate) fn left_out(&self, scene: &SceneContext, spp: u32, label: &str) -> Option<&str> {
         let standing = self.standings.get(&(scene.id.clone(), spp))?;
         standing.left_out.get(label).map(String::as_str)
     }
 
     /// Cells that did not run, merged over levels and replicates where the reason is the same.
-    pub(super) fn skipped(&self) -> Vec<Skipped> {
+    pub(crate) fn skipped(&self) -> Vec<Skipped> {
         let mut out: Vec<Skipped> = Vec::new();
         for record in &self.ended {
             let (status, reason) = match &record.outcome {
                 Outcome::Done => continue,
-                Outcome::Skipped { reason } => ("skipped", reason),
-                Outcome::Failed { reason } => ("failed", reason),
+                Outcome::Skipped { reason } => (Status::Skipped, reason),
+                Outcome::Failed { reason } => (Status::Failed, reason),
             };
             let same = |s: &&mut Skipped| {
                 s.scene == record.scene
@@ -115,7 +128,7 @@ impl<'a> Index<'a> {
                     scene: record.scene.clone(),
                     spp: vec![record.spp],
                     label: record.label.clone(),
-                    status: status.into(),
+                    status,
                     reason: reason.clone(),
                 }),
             }

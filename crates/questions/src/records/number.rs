@@ -3,15 +3,15 @@
 use noisefloor_metrics::Contribution;
 use noisefloor_stats::{self as stats, Level, replicate_interval};
 
-use crate::analysis::series::reference_share;
-use crate::record::Record;
-use crate::summary::{Interval, Source};
+use crate::records::reference_share;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{Interval, Source};
 
 /// Level of every interval in a summary.
-pub(super) const LEVEL: Level = Level::TWO_SIDED_95;
+pub(crate) const LEVEL: Level = Level::TWO_SIDED_95;
 
 /// Puts an interval into the summary's form; one without ends has no known uncertainty.
-pub(super) fn told(interval: stats::Interval, source: Source, below: Option<f64>) -> Interval {
+pub(crate) fn told(interval: stats::Interval, source: Source, below: Option<f64>) -> Interval {
     Interval {
         value: interval.value,
         standard_error: interval.standard_error,
@@ -25,7 +25,7 @@ pub(super) fn told(interval: stats::Interval, source: Source, below: Option<f64>
 }
 
 /// Value of a metric in a record, over all pixels or in a class.
-pub(super) fn value(record: &Record, class: Option<&str>, metric: &str) -> Option<f64> {
+pub(crate) fn value(record: &Record, class: Option<&str>, metric: &str) -> Option<f64> {
     let values = match class {
         None => &record.metrics,
         Some(class) => record.classes.get(class)?,
@@ -35,7 +35,7 @@ pub(super) fn value(record: &Record, class: Option<&str>, metric: &str) -> Optio
 
 /// Mean of a metric over replicates; with one replicate, its interval within the image. `None` if no replicate has a
 /// value.
-pub(super) fn metric(
+pub(crate) fn metric(
     records: &[&Record],
     class: Option<&str>,
     metric: &str,
@@ -52,7 +52,7 @@ pub(super) fn metric(
         }
         _ => (replicate_interval(&values, common, LEVEL)?, Source::Replicates),
     };
-    let info = crate::metric::info(metric)?;
+    let info = noisefloor_study::metric::info(metric)?;
     // Only errors that the reference's noise was taken out of can fall to where the reference shows nothing.
     let corrected = info.lower_is_better && info.reference_noise_removed;
     let hidden = || interval.below(floor.unwrap_or(0.0));
@@ -71,12 +71,12 @@ pub(super) fn metric(
 }
 
 /// Bias by the reference that was taken out of a metric, mean over replicates; `None` where none is stated.
-pub(super) fn bias(records: &[&Record], class: Option<&str>, metric: &str) -> Option<f64> {
+pub(crate) fn bias(records: &[&Record], class: Option<&str>, metric: &str) -> Option<f64> {
     mean(records.iter().filter_map(|record| Some(record.contribution(class, metric)?.bias)))
 }
 
 /// Rate over replicates, from the counts of each: hits and trials. With one replicate, its interval within the image.
-pub(super) fn rate(counts: &[(u64, u64)], within: Option<f64>) -> Option<Interval> {
+pub(crate) fn rate(counts: &[(u64, u64)], within: Option<f64>) -> Option<Interval> {
     let rates: Vec<f64> = counts
         .iter()
         .filter(|(_, trials)| *trials > 0)
@@ -94,13 +94,13 @@ pub(super) fn rate(counts: &[(u64, u64)], within: Option<f64>) -> Option<Interva
 }
 
 /// Mean of some numbers, if there are any.
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
+pub(crate) fn mean(values: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = values.fold((0.0, 0u32), |(sum, count), v| (sum + v, count + 1));
     (count > 0).then(|| sum / f64::from(count))
 }
 
 /// Median of some numbers, if there are any.
-pub(crate) fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
+pub fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
     let mut sorted: Vec<f64> = values.collect();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;

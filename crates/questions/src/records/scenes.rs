@@ -1,28 +1,28 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{bias, mean, median, value};
-use crate::context::SceneContext;
-use crate::record::Record;
-use crate::store::Layout;
-use crate::summary::{ReferenceSummary, SceneSummary};
+use crate::records::index::Index;
+use crate::records::{bias, mean, median, value};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::files;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{ReferenceSummary, SceneSummary};
 
 /// Samples of a reference over those of a level below which the coverage correction is doubtful.
-pub(super) const LONG_ENOUGH: f64 = 16.0;
+pub(crate) const LONG_ENOUGH: f64 = 16.0;
 
 /// Samples of the reference over `spp`; infinite for exact truth, 0 if the reference's count is unknown.
-pub(super) fn reference_ratio(scene: &SceneContext, spp: u32) -> f64 {
+pub(crate) fn reference_ratio(scene: &SceneContext, spp: u32) -> f64 {
     if scene.reference.exact { f64::INFINITY } else { scene.reference.spp as f64 / f64::from(spp.max(1)) }
 }
 
 /// A ratio for a sentence: one decimal where it has one.
-pub(super) fn times(ratio: f64) -> f64 {
+pub(crate) fn times(ratio: f64) -> f64 {
     (ratio * 10.0).round() / 10.0
 }
 
 /// Scenes in the order of the study; without images where the study is a recorded one.
-pub(super) fn scenes(index: &Index<'_>, records: &[Record], recorded: bool) -> Vec<SceneSummary> {
-    let all = index.scenes();
+pub(crate) fn scenes(index: &Index<'_>) -> Vec<SceneSummary> {
+    let (all, records, recorded) = (index.scenes(), index.all, index.recorded);
     let title = |scene: &SceneContext| {
         // Frames of one sequence are told apart by their ids.
         let shared = all.iter().any(|other| other.id != scene.id && other.title == scene.title);
@@ -77,7 +77,7 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
         settings: scene.settings.clone(),
         reference: reference(scene, &mine().collect::<Vec<_>>()),
         classes: scene.classes.iter().filter(|(_, pixels)| *pixels > 0).cloned().collect(),
-        reference_image: Some(Layout::reference(&scene.id))
+        reference_image: Some(files::reference(&scene.id))
             .filter(|path| !scene.damaged.contains(path))
             .unwrap_or_default(),
         render_seconds,

@@ -2,14 +2,14 @@
 
 use noisefloor_stats::{self as stats, Levels, ReferenceShare, paired_ratio};
 
-use crate::analysis::index::Index;
-use crate::analysis::number::{LEVEL, told, value};
-use crate::context::SceneContext;
-use crate::record::Record;
-use crate::summary::{Interval, Source};
+use crate::records::index::Index;
+use crate::records::{LEVEL, told, value};
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{Interval, Source};
 
 /// Values of a metric, at the index of their replicate.
-pub(super) fn by_replicate(records: &[&Record], class: Option<&str>, metric: &str) -> Vec<Option<f64>> {
+pub(crate) fn by_replicate(records: &[&Record], class: Option<&str>, metric: &str) -> Vec<Option<f64>> {
     let count = records.iter().map(|r| r.replicate as usize + 1).max().unwrap_or(0);
     let mut out = vec![None; count];
     for record in records {
@@ -19,7 +19,7 @@ pub(super) fn by_replicate(records: &[&Record], class: Option<&str>, metric: &st
 }
 
 /// What the reference contributes to the mean over replicates; nothing where none is stated.
-pub(super) fn reference_share(records: &[&Record], class: Option<&str>, metric: &str) -> ReferenceShare {
+pub(crate) fn reference_share(records: &[&Record], class: Option<&str>, metric: &str) -> ReferenceShare {
     let shares: Vec<ReferenceShare> =
         records.iter().filter_map(|record| share(record, class, metric)).collect();
     ReferenceShare::mean(&shares).unwrap_or_default()
@@ -44,7 +44,7 @@ fn share(record: &Record, class: Option<&str>, metric: &str) -> Option<Reference
 }
 
 /// Errors of a row over all levels of a scene where it can be ranked.
-pub(super) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metric: &str) -> Levels {
+pub(crate) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metric: &str) -> Levels {
     let mut levels = Levels::new();
     for &spp in scene.replicates.keys() {
         // Means over other frames or fewer pixels than at the other levels.
@@ -61,7 +61,7 @@ pub(super) fn series(index: &Index<'_>, scene: &SceneContext, label: &str, metri
 /// Ratio of a row's errors to another row's on the same frames; `within` is the standard error of its logarithm within
 /// one image, for where there is no second replicate. `None` where no replicate has both or a corrected error is not
 /// positive.
-pub(super) fn error_ratio(
+pub(crate) fn error_ratio(
     own: &[&Record],
     other: &[&Record],
     class: Option<&str>,

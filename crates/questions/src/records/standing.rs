@@ -2,15 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::record::{Outcome, Record};
+use noisefloor_study::record::{Outcome, Record};
 
 /// The rows of one scene at one level.
 #[derive(Debug, Default)]
-pub(super) struct Standing {
+pub(crate) struct Standing {
     /// Label to the reason why the row is not ranked.
-    pub(super) left_out: BTreeMap<String, String>,
+    pub(crate) left_out: BTreeMap<String, String>,
     /// Replicates that all ranked rows have.
-    pub(super) common: BTreeSet<u32>,
+    pub(crate) common: BTreeSet<u32>,
 }
 
 impl Standing {
@@ -19,7 +19,7 @@ impl Standing {
     /// Frames differ, so means over different frames cannot be ranked. A row that was skipped or failed on a frame on
     /// which another ran, or whose output has values that are not finite (its errors are over fewer pixels then), is left out. Of the others a
     /// replicate counts where all of them have it: in a study that was stopped some have one more than others.
-    pub(super) fn of(records: &[&Record]) -> Self {
+    pub(crate) fn of(records: &[&Record]) -> Self {
         let mut rows: BTreeMap<&str, Vec<&Record>> = BTreeMap::new();
         for record in records {
             rows.entry(&record.label).or_default().push(record);

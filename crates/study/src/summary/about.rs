@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// The study file's own words.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct StudyInfo {
     /// Name such as `vfi-fig09`.
     pub name: String,

@@ -1,0 +1,42 @@
+//! Do the input's confidence intervals cover?
+
+mod analyse;
+mod exhibit;
+mod measure;
+
+pub(crate) use analyse::mark;
+
+use noisefloor_study::exhibit::Exhibit;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::Summary;
+
+use crate::cell::{Cell, MeasureError};
+use crate::question::Question;
+use crate::records::Index;
+use crate::view::View;
+
+/// The question.
+#[derive(Debug)]
+pub(crate) struct Coverage;
+
+impl Question for Coverage {
+    fn id(&self) -> &'static str {
+        "coverage"
+    }
+
+    fn methodology(&self) -> &'static str {
+        include_str!("coverage/METHODOLOGY.md")
+    }
+
+    fn measure(&self, cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+        measure::measure(cell, record)
+    }
+
+    fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
+        analyse::analyse(records, summary);
+    }
+
+    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
+        exhibit::exhibit(view)
+    }
+}

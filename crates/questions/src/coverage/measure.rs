@@ -1,0 +1,49 @@
+//! How often Student's interval around the noisy mean contains the truth.
+
+use noisefloor_stats::{self as stats, CoverageTally, Level, ShapeError};
+use noisefloor_study::BASELINE;
+use noisefloor_study::record::{CoverageCount, Record};
+
+use crate::cell::{Cell, Measure, MeasureError};
+
+/// Of the baseline only, whose output is the noisy mean.
+pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+    if cell.method == BASELINE {
+        record.coverage = cell.measure.coverage(&cell.study.coverage)?;
+    }
+    Ok(())
+}
+
+impl Measure<'_> {
+    /// Coverage of the t-intervals of the input mean, per level and class; empty where intervals are void or unknown.
+    ///
+    /// # Errors
+    /// If frame and truth differ in size.
+    pub fn coverage(&self, confidences: &[f64]) -> Result<Vec<CoverageCount>, ShapeError> {
+        let Some(observed) = self.intervals() else { return Ok(Vec::new()) };
+        let mut out = Vec::new();
+        // Confidences were checked with the study.
+        for level in confidences.iter().filter_map(|&c| Level::two_sided(c).ok()) {
+            let tallies = stats::coverage(&observed, &self.truth, level, Some(self.groups()))?;
+            for (index, (class, tally)) in
+                self.names().zip(tallies).enumerate().filter(|(_, (_, t))| t.all() > 0)
+            {
+                out.push(CoverageCount {
+                    confidence: level.confidence(),
+                    class: class.to_owned(),
+                    total: tally.total,
+                    covered: tally.covered,
+                    covered_uncorrected: tally.covered_uncorrected,
+                    constant: tally.constant,
+                    missed: tally.missed,
+                    within_se: self.within(
+                        index,
+                        |observed, groups| stats::coverage(observed, &self.truth, level, Some(groups)),
+                        |t: &CoverageTally| (t.covered + t.constant, t.all()),
+                    ),
+                });
+            }
+        }
+        Ok(out)
+    }
+}

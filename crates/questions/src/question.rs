@@ -1,0 +1,67 @@
+//! What a question is, and the list of all.
+
+use noisefloor_study::exhibit::{Answer, Exhibit};
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::Summary;
+
+use crate::cell::{Cell, MeasureError};
+use crate::records::Index;
+use crate::view::View;
+
+/// A question to the data. All parts but the id and the paragraph may be absent.
+pub trait Question: Sync {
+    /// Anchor in the page, and the name of its answers on disk.
+    fn id(&self) -> &'static str;
+
+    /// Its paragraph of the methodology, Markdown.
+    fn methodology(&self) -> &'static str;
+
+    /// Measures a finished cell, into its record.
+    ///
+    /// # Errors
+    /// If image, frame and truth do not fit together.
+    fn measure(&self, cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+        let _ = (cell, record);
+        Ok(())
+    }
+
+    /// Analyses all records, into the summary; what comes before it in [`QUESTIONS`] is there already.
+    fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
+        let _ = (records, summary);
+    }
+
+    /// The answer in a sentence or a few, for the first screen.
+    fn answer(&self, view: &View<'_>) -> Option<Answer> {
+        let _ = view;
+        None
+    }
+
+    /// What a reader sees; nothing where the study has nothing to show.
+    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
+        let _ = view;
+        None
+    }
+}
+
+/// All questions, in the order in which they are measured, analysed and shown.
+pub const QUESTIONS: &[&dyn Question] = &[
+    &crate::paper::Paper,
+    &crate::error::Error,
+    &crate::comparison::Comparison,
+    &crate::convergence::Convergence,
+    &crate::cost::Cost,
+    &crate::coverage::Coverage,
+    &crate::bounds::Bounds,
+    &crate::own_error::OwnError,
+    &crate::equal_time::EqualTime,
+    &crate::flicker::Flicker,
+    &crate::breakage::Breakage,
+];
+
+/// Puts every question to a finished cell.
+///
+/// # Errors
+/// Of the first question that cannot be measured.
+pub fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+    QUESTIONS.iter().try_for_each(|question| question.measure(cell, record))
+}
