@@ -9,33 +9,10 @@ use noisefloor_io::ReadOptions;
 use serde::{Deserialize, Serialize};
 
 use crate::error::HarnessError;
-use crate::measure::DENSITY_SECONDS;
 use crate::store::{hash_of, read_json, sweep, write_json};
-
-/// Raise when anything changes what a key stands for.
-const CACHE_VERSION: u32 = 1;
 
 /// Age from which a temporary file of the cache is that of a process that is gone.
 const ABANDONED: Duration = Duration::from_secs(24 * 3600);
-
-/// A content hash in hexadecimal.
-pub(crate) type Key = String;
-
-/// Hash of a serialisable description. Maps are sorted by serde_json, so equal descriptions have equal keys.
-pub(crate) fn key_of(description: &impl Serialize) -> Key {
-    let value = serde_json::to_value(description).unwrap_or_default();
-    let mut hasher = blake3::Hasher::new();
-    hasher.update(&CACHE_VERSION.to_le_bytes());
-    hasher.update(value.to_string().as_bytes());
-    hasher.finalize().to_hex()[..32].to_owned()
-}
-
-/// First 8 bytes of the hash of a description: a random seed.
-pub(crate) fn seed_of(description: &impl Serialize) -> u64 {
-    let value = serde_json::to_value(description).unwrap_or_default();
-    let hash = blake3::hash(value.to_string().as_bytes());
-    u64::from_le_bytes(hash.as_bytes()[..8].try_into().expect("a hash has 32 bytes"))
-}
 
 /// What the cache has under a key.
 #[derive(Debug)]
@@ -141,8 +118,9 @@ impl Cache {
             Ok(mut frame) => {
                 frame.provenance.render_seconds = entry.render_seconds;
                 frame.provenance.render_threads = entry.render_threads;
-                let density = entry.density_seconds.map(|seconds| (DENSITY_SECONDS.to_owned(), seconds));
-                frame.provenance.extra.extend(density);
+                if let Some(rounds) = &mut frame.provenance.rounds {
+                    rounds.density_seconds = entry.density_seconds.and_then(|seconds| seconds.parse().ok());
+                }
                 Ok(Lookup::Hit(Box::new(frame)))
             }
             Err(error) => Ok(Lookup::Damaged(path, error.to_string())),
@@ -158,7 +136,7 @@ impl Cache {
         let folder = self.folder(key);
         std::fs::create_dir_all(&folder).map_err(HarnessError::io("make folder", &folder))?;
         let whole = frame.provenance.clone();
-        let density_seconds = frame.provenance.extra.remove(DENSITY_SECONDS);
+        let density_seconds = whole.rounds.and_then(|rounds| rounds.density_seconds).map(|s| s.to_string());
         let (render_seconds, render_threads) = (whole.render_seconds, whole.render_threads);
         // Nobody else writes here, so that the hash is that of these bytes.
         let staged = folder.join(own_name());
@@ -184,6 +162,7 @@ fn own_name() -> String {
 
 #[cfg(test)]
 mod tests {
+    use noisefloor_frame::Rounds;
     use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
     use super::*;
@@ -196,7 +175,7 @@ mod tests {
             .render(4, seed);
         frame.provenance.render_seconds = Some(seed as f64);
         frame.provenance.render_threads = Some(3);
-        frame.provenance.extra.insert(DENSITY_SECONDS.into(), "0.5".into());
+        frame.provenance.rounds = Some(Rounds { count: 4, density_seconds: Some(0.5) });
         frame
     }
 
@@ -217,7 +196,7 @@ mod tests {
         assert_eq!(hit(&cache).unwrap(), frame(1));
         let mut slower = frame(1);
         slower.provenance.render_seconds = Some(99.0);
-        slower.provenance.extra.insert(DENSITY_SECONDS.into(), "7".into());
+        slower.provenance.rounds = Some(Rounds { count: 4, density_seconds: Some(7.0) });
         let elsewhere = tempfile::tempdir().unwrap();
         Cache::open(elsewhere.path()).unwrap().put(KEY, &mut slower).unwrap();
         let names = |root: &Path| -> Vec<String> {

@@ -1,51 +1,17 @@
-use std::fmt;
 use std::path::PathBuf;
 
 use noisefloor_denoiser::BuildError;
 use noisefloor_render::RenderError;
-use noisefloor_scenes::UnknownScene;
+use noisefloor_study::{Place, StudyError};
 use thiserror::Error;
 
 /// Why a study could not be read, planned, run or analysed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum HarnessError {
-    /// A study file that is no valid TOML, or has an unknown or missing field.
-    #[error("{place}: {message}")]
-    Syntax {
-        /// File and line.
-        place: Place,
-        /// The parser's message, with the offending line.
-        message: String,
-    },
-    /// A field of a study has a value without meaning.
-    #[error("{place}: {field} is {value}; allowed: {allowed}")]
-    Field {
-        /// File and line.
-        place: Place,
-        /// Field, such as `scene[1].spp`.
-        field: String,
-        /// Value found.
-        value: String,
-        /// Allowed values.
-        allowed: String,
-    },
-    /// No built-in study has this name and no such file or folder exists.
-    #[error("there is no study, file or folder `{name}`; the nearest studies are {}", nearest.join(", "))]
-    UnknownStudy {
-        /// Name given.
-        name: String,
-        /// The closest names that exist.
-        nearest: Vec<String>,
-    },
-    /// A study names a scene that does not exist.
-    #[error("{place}: {source}")]
-    Scene {
-        /// File and line.
-        place: Place,
-        /// Which name, and the nearest ones.
-        source: UnknownScene,
-    },
+    /// A study that is none.
+    #[error(transparent)]
+    Study(#[from] StudyError),
     /// A glTF file of a study cannot be loaded.
     #[error(transparent)]
     Gltf(#[from] noisefloor_gltf::GltfError),
@@ -123,6 +89,14 @@ pub enum HarnessError {
     /// A frame could not be rendered.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// An image class of a kept file has no name.
+    #[error("{}: {source}", path.display())]
+    Classes {
+        /// The file.
+        path: PathBuf,
+        /// Which class.
+        source: noisefloor_questions::UnknownClass,
+    },
     /// Buffers do not fit together.
     #[error("scene `{scene}`: {source}")]
     Frame {
@@ -220,23 +194,5 @@ impl HarnessError {
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         matches!(self, Self::Cancelled | Self::Render(RenderError::Cancelled))
-    }
-}
-
-/// File and line of a message.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Place {
-    /// File, or the name of a built-in study.
-    pub file: String,
-    /// Line from 1, if known.
-    pub line: Option<usize>,
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "{}, line {line}", self.file),
-            None => f.write_str(&self.file),
-        }
     }
 }

@@ -1,6 +1,6 @@
 //! What the platform tells about this process and machine; `None` where it does not.
 
-use crate::summary::Environment;
+use noisefloor_study::summary::Environment;
 
 /// Peak resident memory of the process in bytes since the last [`reset_peak_memory`], or since it began.
 pub(crate) fn peak_memory() -> Option<u64> {

@@ -4,8 +4,8 @@ use noisefloor_denoiser::Registry;
 use noisefloor_render::{Keep, MAX_MEMORY, Quantity};
 
 use crate::error::HarnessError;
-use crate::plan::recorded;
-use crate::study::{SceneSource, Study};
+use crate::source::recorded;
+use noisefloor_study::{SceneSource, Study};
 
 /// Bytes per value: of a frame, and of the file that it is encoded into.
 const BYTES_PER_VALUE: u64 = 8;

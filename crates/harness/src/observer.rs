@@ -1,4 +1,4 @@
-use crate::record::{Outcome, Record};
+use noisefloor_study::record::{Outcome, Record};
 
 /// What a run is about to do, so that a caller can draw a bar and estimate the time left.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]

@@ -1,35 +1,44 @@
-//! Cells: scene × spp × replicate × row, in the order in which they run.
+//! Everything that will be done, as one list, made once before anything is done.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_denoiser::{Method, MethodCard, Need, Registry};
-use noisefloor_render::{Keep, Quantity};
-use serde_json::{Map, Value, json};
+use noisefloor_denoiser::Registry;
+use noisefloor_questions::measuring;
+use noisefloor_study::plan::{Item, PLAN_SCHEMA, PlannedCell, PlannedFrame};
+use noisefloor_study::record::RECORD_SCHEMA;
+use noisefloor_study::{Key, Place, Study, StudyError, key_of};
+use serde_json::json;
 
-use crate::cache::{Key, key_of};
-use crate::error::{HarnessError, Place};
-use crate::fingerprint::{Fingerprints, measuring};
-use crate::record::RECORD_SCHEMA;
-use crate::source::{FrameSpec, Scene};
-use crate::study::{RowFrames, SceneSpec, Study};
+use crate::error::HarnessError;
+use crate::fingerprint::Fingerprints;
+use crate::row::{Row, rows};
+use crate::source::{FrameSpec, Scene, recorded};
 
-/// A row ready to run.
-pub(crate) struct Row {
-    pub(crate) label: String,
-    /// Unique folder name made from the label.
-    pub(crate) slug: String,
-    pub(crate) method: Method,
-    pub(crate) card: MethodCard,
-    /// Hash of what the method gives on fixed frames.
-    pub(crate) fingerprint: Key,
-    pub(crate) frames: RowFrames,
-}
-
-/// Everything that will be done, before anything is done.
+/// Scenes, rows and cells: scene × spp × replicate × row, in the order in which they run.
 pub(crate) struct Plan {
     pub(crate) scenes: Vec<Scene>,
     pub(crate) rows: Vec<Row>,
+    pub(crate) cells: Vec<CellPlan>,
 }
+
+/// A row on a frame.
+pub(crate) struct CellPlan {
+    /// Place of the scene.
+    pub(crate) scene: usize,
+    /// Place of the row, in the scene's rows as in the study's.
+    pub(crate) row: usize,
+    /// Place of the study's own frame, whose level and replicate it has, among the scene's.
+    pub(crate) of: usize,
+    /// The frame that the row gets.
+    pub(crate) frame: FrameSpec,
+    /// Frames at neighbouring moments that the row looks at, by their distance.
+    pub(crate) beside: Vec<(i64, FrameSpec)>,
+    /// Hash of all that determines the cell's numbers.
+    pub(crate) key: Key,
+}
+
+/// A frame with the cells that are to run on it.
+pub(crate) type FrameWork<'a> = (&'a FrameSpec, Vec<&'a CellPlan>);
 
 impl Plan {
     /// Looks up every name, so that a mistake is told before any work.
@@ -39,45 +48,139 @@ impl Plan {
         size: Option<(usize, usize)>,
     ) -> Result<Self, HarnessError> {
         let mut fingerprints = Fingerprints::default();
-        let rows = rows(study, registry, None, &mut fingerprints)?;
-        let recorded = recorded(rows.iter().map(|row| &row.card));
+        let all = rows(study, registry, None, &mut fingerprints)?;
+        let recorded = recorded(all.iter().map(|row| &row.card));
         let mut scenes = Vec::new();
         for spec in &study.scenes {
             let mut scene = Scene::open(study, spec, size, &recorded)?;
-            scene.rows = self::rows(study, registry, Some(spec), &mut fingerprints)?;
+            scene.rows = rows(study, registry, Some(spec), &mut fingerprints)?;
             known_features(study, &scene)?;
             scene.open_beside(study, spec, size, &recorded)?;
             scenes.push(scene);
         }
         same_sizes(study, &scenes)?;
-        Ok(Self { scenes, rows })
+        let cells = scenes.iter().enumerate().flat_map(|(place, scene)| cells(study, place, scene)).collect();
+        Ok(Self { scenes, rows: all, cells })
     }
 
-    /// Content hash of all that determines the numbers of a cell. Methods and metrics are in it by what they give, so that
-    /// neither a program that is built again nor one that gives other numbers is taken for the other.
-    pub(crate) fn cell_key(&self, study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row) -> Key {
-        let mut all = json!({
-            "record": RECORD_SCHEMA,
-            // What a record says it is of, even where two cells have equal frames.
-            "cell": json!([scene.id, frame.spp, frame.replicate]),
-            "measuring": measuring(),
-            "frame": frame.key,
-            "reference": scene.reference_key,
-            "method": row.method.id,
-            "fingerprint": row.fingerprint,
-            "params": row.method.params,
-            "label": row.label,
-            "coverage": study.coverage,
-            "timing": study.timing,
-            "diagnostics": wants_diagnostics(study, frame).then(|| json!([study.probe])),
-            "within": scene.single(),
-        });
-        let beside: Vec<Key> = scene.beside(frame, row).map(|(_, frame)| frame.key).collect();
-        // Cells without neighbouring frames keep the keys that they had when there were none.
-        if !beside.is_empty() {
-            all["beside"] = json!(beside);
+
+    /// The row of a cell, with the parameters that it has on the cell's scene.
+    pub(crate) fn row(&self, cell: &CellPlan) -> &Row {
+        &self.scenes[cell.scene].rows[cell.row]
+    }
+
+    /// Frames of a scene with the cells that are still to run on them: the study's own frames first, then each row's own.
+    pub(crate) fn work(&self, scene: usize, kept: &BTreeSet<Key>) -> Vec<FrameWork<'_>> {
+        let mut out: Vec<FrameWork<'_>> = Vec::new();
+        // In the order of the scenes.
+        let first = self.cells.partition_point(|cell| cell.scene < scene);
+        let of_scene = self.cells[first..].iter().take_while(|cell| cell.scene == scene);
+        for cell in of_scene.filter(|cell| !kept.contains(&cell.key)) {
+            let mut near = out.iter_mut().rev().take_while(|(_, cells)| cells[0].of == cell.of);
+            match near.find(|(frame, _)| frame.key == cell.frame.key) {
+                Some((_, cells)) => cells.push(cell),
+                None => out.push((&cell.frame, vec![cell])),
+            }
         }
-        key_of(&all)
+        out
+    }
+
+    /// The list for others to read, in the order in which it is worked off.
+    pub(crate) fn items(&self, study: &Study) -> Vec<Item> {
+        let mut items = Vec::new();
+        let mut seen = BTreeSet::new();
+        for (place, scene) in self.scenes.iter().enumerate() {
+            items.extend(scene.reference_ranges().into_iter().map(Item::Reference));
+            for (frame, cells) in self.work(place, &BTreeSet::new()) {
+                if seen.insert(frame.key.clone()) {
+                    items.push(Item::Frame(planned_frame(scene, frame)));
+                }
+                for cell in cells {
+                    for (distance, beside) in &cell.beside {
+                        if let Some(moment) =
+                            scene.moment(*distance).filter(|_| seen.insert(beside.key.clone()))
+                        {
+                            items.push(Item::Frame(planned_frame(moment, beside)));
+                        }
+                    }
+                    items.push(Item::Cell(planned_cell(study, scene, self.row(cell), cell)));
+                }
+            }
+        }
+        let head = Item::Study { schema: PLAN_SCHEMA, study: study.name.clone(), items: items.len() };
+        std::iter::once(head).chain(items).collect()
+    }
+
+    /// Where each cell stands in the list.
+    pub(crate) fn places(&self) -> BTreeMap<&str, usize> {
+        self.cells.iter().enumerate().map(|(place, cell)| (cell.key.as_str(), place)).collect()
+    }
+}
+
+fn cells(study: &Study, place: usize, scene: &Scene) -> Vec<CellPlan> {
+    let mut out = Vec::new();
+    for (of, frame) in scene.frames.iter().enumerate() {
+        for (index, row) in scene.rows.iter().enumerate() {
+            let frame = scene.frame_of(frame, row);
+            let beside: Vec<(i64, FrameSpec)> = scene.beside(&frame, row).collect();
+            let key = cell_key(study, scene, &frame, row, &beside);
+            out.push(CellPlan { scene: place, row: index, of, frame, beside, key });
+        }
+    }
+    out
+}
+
+/// Content hash of all that determines the numbers of a cell. Methods and metrics are in it by what they give, so that
+/// neither a program that is built again nor one that gives other numbers is taken for the other.
+fn cell_key(study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row, beside: &[(i64, FrameSpec)]) -> Key {
+    let mut all = json!({
+        "record": RECORD_SCHEMA,
+        // What a record says it is of, even where two cells have equal frames.
+        "cell": json!([scene.id, frame.spp, frame.replicate]),
+        "measuring": measuring(),
+        "frame": frame.key,
+        "reference": scene.reference_key,
+        "method": row.method.id,
+        "fingerprint": row.fingerprint,
+        "params": row.method.params,
+        "label": row.label,
+        "coverage": study.coverage,
+        "timing": study.timing,
+        "diagnostics": wants_diagnostics(study, frame).then(|| json!([study.probe])),
+        "within": scene.single(),
+    });
+    // Cells without neighbouring frames keep the keys that they had when there were none.
+    if !beside.is_empty() {
+        all["beside"] = json!(beside.iter().map(|(_, frame)| &frame.key).collect::<Vec<_>>());
+    }
+    key_of(&all)
+}
+
+fn planned_frame(scene: &Scene, frame: &FrameSpec) -> PlannedFrame {
+    PlannedFrame {
+        scene: scene.id.clone(),
+        spp: frame.spp,
+        replicate: frame.replicate,
+        placed: frame.kind.placed(),
+        key: frame.key.clone(),
+        seed: frame.seed,
+        samples: scene.camera_samples(u64::from(frame.samples())),
+    }
+}
+
+fn planned_cell(study: &Study, scene: &Scene, row: &Row, cell: &CellPlan) -> PlannedCell {
+    let runs = study.timing.warmup + study.timing.runs.max(1);
+    let runs = runs + u32::from(wants_diagnostics(study, &cell.frame));
+    let megapixels = (scene.width * scene.height) as f64 * 1e-6;
+    PlannedCell {
+        scene: scene.id.clone(),
+        spp: cell.frame.spp,
+        replicate: cell.frame.replicate,
+        label: row.label.clone(),
+        key: cell.key.clone(),
+        frame: cell.frame.key.clone(),
+        beside: cell.beside.iter().map(|(_, frame)| frame.key.clone()).collect(),
+        seconds: row.card.cost.seconds() * megapixels * f64::from(runs),
     }
 }
 
@@ -91,15 +194,16 @@ fn known_features(study: &Study, scene: &Scene) -> Result<(), HarnessError> {
     for (row, line) in scene.rows.iter().zip(study.methods.iter().map(|row| row.line)) {
         let there = scene.extra_features.iter().map(String::as_str);
         if let Some((name, nearest)) = row.card.unknown_feature(there) {
-            return Err(HarnessError::Field {
-                place: Place { file: format!("study `{}`", study.name), line },
+            return Err(StudyError::Field {
+                place: Place::of_study(&study.name, line),
                 field: format!("row `{}`: feature on scene `{}`", row.label, scene.id),
                 value: format!("`{name}`"),
                 allowed: format!(
                     "features with a fixed meaning or in the scene's files; nearest: {}",
                     nearest.join(", ")
                 ),
-            });
+            }
+            .into());
         }
     }
     Ok(())
@@ -112,125 +216,14 @@ fn same_sizes(study: &Study, scenes: &[Scene]) -> Result<(), HarnessError> {
         let sizes: BTreeSet<(usize, usize)> = of_sequence.map(|s| (s.width, s.height)).collect();
         if sizes.len() > 1 {
             let told: Vec<String> = sizes.iter().map(|(w, h)| format!("{w}×{h}")).collect();
-            return Err(HarnessError::Field {
-                place: Place { file: format!("study `{}`", study.name), line: None },
+            return Err(StudyError::Field {
+                place: Place::of_study(&study.name, None),
                 field: format!("sequence `{name}`: size"),
                 value: told.join(" and "),
                 allowed: "one size for all frames".into(),
-            });
+            }
+            .into());
         }
     }
     Ok(())
-}
-
-/// The rows as they run on a scene, or with the study's own parameters.
-fn rows(
-    study: &Study,
-    registry: &Registry,
-    scene: Option<&SceneSpec>,
-    fingerprints: &mut Fingerprints,
-) -> Result<Vec<Row>, HarnessError> {
-    let mut unused: BTreeSet<&String> = scene.iter().flat_map(|scene| scene.set.keys()).collect();
-    let mut slugs = BTreeSet::new();
-    let mut rows = Vec::new();
-    for row in &study.methods {
-        let build = |set: &Map<String, Value>| {
-            registry.build(&row.id, set).map_err(|source| HarnessError::Method {
-                place: Place { file: format!("study `{}`", study.name), line: row.line },
-                label: row.label.clone(),
-                source: Box::new(source),
-            })
-        };
-        let mut method = build(&row.set)?;
-        let mut set = row.set.clone();
-        for (name, value) in scene.iter().flat_map(|scene| &scene.set) {
-            if method.params.get(name).is_some() {
-                unused.remove(name);
-                set.entry(name.clone()).or_insert_with(|| value.clone());
-            }
-        }
-        if set != row.set {
-            method = build(&set)?;
-        }
-        if matches!(row.frames, RowFrames::Adaptive(_)) && method.denoiser.adaptive().is_none() {
-            return Err(HarnessError::Field {
-                place: Place { file: format!("study `{}`", study.name), line: row.line },
-                field: format!("row `{}`: adaptive", row.label),
-                value: format!("`{}`", row.id),
-                allowed: "a method that can say where samples are needed".into(),
-            });
-        }
-        let first = slug(&row.label);
-        let mut slug = first.clone();
-        for number in 1.. {
-            if slugs.insert(slug.clone()) {
-                break;
-            }
-            // One more of that name, then numbers: names stay short however many are equal.
-            slug = if number == 1 { format!("{first}_") } else { format!("{first}_{number}") };
-        }
-        let card = method.denoiser.card();
-        let fingerprint = fingerprints.of(&method);
-        let (label, frames) = (row.label.clone(), row.frames.clone());
-        rows.push(Row { label, slug, method, card, fingerprint, frames });
-    }
-    if let (Some(name), Some(scene)) = (unused.into_iter().next(), scene) {
-        return Err(HarnessError::Field {
-            place: Place { file: format!("study `{}`", study.name), line: None },
-            field: format!("scene `{}`: set", scene.id),
-            value: format!("`{name}`"),
-            allowed: "parameters that the method of some row has".into(),
-        });
-    }
-    Ok(rows)
-}
-
-/// A folder name: letters and digits of the label, everything else one dash.
-fn slug(label: &str) -> String {
-    let mut out = String::new();
-    for c in label.chars() {
-        if c.is_ascii_alphanumeric() || c == '.' || c == '=' {
-            out.push(c.to_ascii_lowercase());
-        } else if !out.ends_with('-') {
-            out.push('-');
-        }
-    }
-    let trimmed = out.trim_matches(['-', '.']);
-    if trimmed.is_empty() { "row".into() } else { trimmed.to_owned() }
-}
-
-/// What a renderer should record so that every row has what it needs and may use.
-pub(crate) fn recorded<'a>(cards: impl Iterator<Item = &'a MethodCard>) -> BTreeMap<Quantity, Keep> {
-    let mut out = BTreeMap::new();
-    let mut add = |quantity: Option<Quantity>, variance: bool, halves: bool| {
-        if let Some(quantity) = quantity {
-            let keep = out.entry(quantity).or_insert(Keep::MEAN);
-            keep.variance |= variance;
-            keep.halves |= halves;
-        }
-    };
-    for need in cards.flat_map(|card| card.needs.iter().chain(&card.uses)) {
-        match need {
-            Need::Feature(id) => add(Quantity::from_name(id.name()), false, false),
-            Need::FeatureVariance(id) => add(Quantity::from_name(id.name()), true, false),
-            Need::FeatureHalves(id) => add(Quantity::from_name(id.name()), false, true),
-            Need::Flash => add(Some(Quantity::Flash), false, false),
-            Need::FlashVariance => add(Some(Quantity::Flash), true, false),
-            // The colour always comes with variance and halves; samples are the study's business.
-            _ => {}
-        }
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::slug;
-
-    #[test]
-    fn slugs_are_folder_names() {
-        assert_eq!(slug("guarded(virtual-flash) steps=1"), "guarded-virtual-flash-steps=1");
-        assert_eq!(slug("../../etc"), "etc");
-        assert_eq!(slug("κ"), "row");
-    }
 }

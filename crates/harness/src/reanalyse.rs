@@ -5,18 +5,18 @@ use std::path::Path;
 
 use noisefloor_frame::{Finding, FindingKind, sorted_findings};
 use noisefloor_io::{ReadOptions, read_color, read_image, read_reference};
-use noisefloor_metrics::{Classes, Measurer, block_bootstrap};
+use noisefloor_metrics::{Classes, Measurer};
 
-use crate::analysis::analyse;
-use crate::context::{Context, SceneContext};
 use crate::error::HarnessError;
-use crate::fingerprint::measuring;
-use crate::record::Record;
+use crate::machine;
 use crate::recorded::KeptStudy;
-use crate::source::PixelClasses;
-use crate::store::{Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
-use crate::study::Study;
-use crate::summary::Summary;
+use crate::store::{FolderImages, Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
+use noisefloor_questions::{Kept as Where, PixelClasses, measure_metrics, measuring, summarise};
+use noisefloor_study::Study;
+use noisefloor_study::context::{Context, SceneContext};
+use noisefloor_study::files;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::Summary;
 
 /// Makes the analysis of a study's folder again and writes `summary.json`. Nothing is rendered or denoised; a study
 /// that was stopped, or is running, is analysed as far as it went.
@@ -50,7 +50,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
                 hint: "a recorded study keeps numbers only, and metrics cannot be computed again".into(),
             });
         }
-        let summary = analyse(&kept.study, &kept.context, &kept.records, dir, true);
+        let summary = kept.summary(dir);
         std::fs::create_dir_all(out).map_err(HarnessError::io("make folder", out))?;
         write_json(&Layout::new(out).summary(), &summary)?;
         return Ok(summary);
@@ -89,7 +89,8 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
         record.diagnostics.retain(|_, path| !damaged.contains(path));
         record.log.take_if(|path| damaged.contains(path));
     }
-    let mut summary = analyse(&study, &context, &all, dir, false);
+    let images = Where::Images(&FolderImages(dir));
+    let mut summary = summarise(&study, &context, &all, &images, machine::now());
     summary.findings = sorted_findings(kept.findings.into_iter().chain(summary.findings));
     write_json(&Layout::new(out).summary(), &summary)?;
     Ok(summary)
@@ -120,7 +121,7 @@ impl Kept<'_> {
 
     /// A scene's description without the files that are not what was written; `None` where there is none.
     fn scene(&mut self, id: &str) -> Option<SceneContext> {
-        let description = Layout::scene(id);
+        let description = files::scene(id);
         let path = self.dir.join(&description);
         if !path.exists() {
             return None;
@@ -178,10 +179,11 @@ fn measure_again<'a>(
         return Ok(());
     }
     let options = ReadOptions { spp: Some(1), ..ReadOptions::default() };
-    let reference = read_reference(dir.join(Layout::reference(&scene.id)), &options)?;
+    let reference = read_reference(dir.join(files::reference(&scene.id)), &options)?;
     let names: Vec<String> = scene.classes.iter().map(|(name, _)| name.clone()).collect();
-    let path = dir.join(Layout::classes(&scene.id));
-    let classes = PixelClasses::from_image(names, &read_image(&path)?, &path)?;
+    let path = dir.join(files::classes(&scene.id));
+    let classes = PixelClasses::from_image(names, &read_image(&path)?)
+        .map_err(|source| HarnessError::Classes { path: path.clone(), source })?;
     let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
     let wrong = |source| HarnessError::Metric { scene: scene.id.clone(), source };
     let measurer = Measurer::new(&reference, Some(map)).map_err(wrong)?;
@@ -189,22 +191,16 @@ fn measure_again<'a>(
     for record in records {
         let Some(relative) = &record.image else { continue };
         let image = read_color(dir.join(relative))?;
-        let measured = measurer.measure(&image).map_err(wrong)?;
+        let earlier = std::mem::take(&mut record.metrics_reference_se);
+        let single = !record.metrics_within_se.is_empty();
+        measure_metrics(&measurer, &image, single, record).map_err(wrong)?;
         record.measuring = measuring().to_owned();
         // Pixels that were invalid on input are marked in the kept image, in all channels.
         let marked = 3 * record.non_finite.input_pixels;
-        record.non_finite.output_values = measured.non_finite_values.saturating_sub(marked);
-        let earlier = std::mem::take(&mut record.metrics_reference_se);
-        record.take(measured);
+        record.non_finite.output_values = image.count_non_finite().saturating_sub(marked);
         // Earlier versions did not keep the parts that these were made from.
         if lacks_parts && !earlier.is_empty() {
             record.metrics_reference_se = earlier;
-        }
-        if !record.metrics_within_se.is_empty() {
-            let images = crate::run::BOOTSTRAP_IMAGES;
-            record.metrics_within_se =
-                block_bootstrap(&measurer, &image, images, crate::run::bootstrap_seed(record))
-                    .map_err(wrong)?;
         }
     }
     Ok(())

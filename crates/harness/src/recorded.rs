@@ -10,14 +10,17 @@ use std::io::{Read as _, Write as _};
 use std::path::Path;
 
 use flate2::{Compression, GzBuilder, read::MultiGzDecoder};
+use noisefloor_questions::{Kept, flicker, summarise};
+use noisefloor_study::files;
 use serde::Serialize;
 
-use crate::context::Context;
 use crate::error::HarnessError;
-use crate::record::Record;
-use crate::store::{Layout, Records, read_json, write_whole};
-use crate::study::Study;
-use crate::summary::Summary;
+use crate::machine;
+use crate::store::{FolderImages, Layout, Records, read_json, write_whole};
+use noisefloor_study::Study;
+use noisefloor_study::context::Context;
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::Summary;
 
 /// Most bytes of records that are unpacked: a file of a few megabytes can hold as many as a disk.
 const MOST_BYTES: u64 = 1 << 30;
@@ -45,6 +48,13 @@ impl KeptStudy {
         if layout.study().is_file() || !dir.is_dir() { Ok(None) } else { earlier::read(dir).map(Some) }
     }
 
+    /// The analysis of it; images are looked for in `dir` unless it is a recording.
+    pub(crate) fn summary(&self, dir: &Path) -> Summary {
+        let images = FolderImages(dir);
+        let kept = if self.recorded { Kept::Recorded } else { Kept::Images(&images) };
+        summarise(&self.study, &self.context, &self.records, &kept, machine::now())
+    }
+
     /// Reads either and changes nothing in it.
     pub(crate) fn read(dir: &Path) -> Result<Self, HarnessError> {
         if let Some(recording) = Self::of_recording(dir)? {
@@ -54,7 +64,7 @@ impl KeptStudy {
         let study: Study = read_json(&layout.study())?;
         let mut context: Context = read_json(&layout.context())?;
         for scene in &study.scenes {
-            let path = dir.join(Layout::scene(&scene.id));
+            let path = dir.join(files::scene(&scene.id));
             if path.exists() {
                 context.scenes.push(read_json(&path)?);
             }
@@ -70,7 +80,7 @@ impl KeptStudy {
 /// As [`record`], for reading.
 pub fn analysis_of(dir: &Path) -> Result<Summary, HarnessError> {
     let kept = KeptStudy::read(dir)?;
-    Ok(crate::analysis::analyse(&kept.study, &kept.context, &kept.records, dir, kept.recorded))
+    Ok(kept.summary(dir))
 }
 
 /// Writes the recording of a study: `study.json`, `context.json` and `results.jsonl.gz`. The same study gives the same
@@ -85,7 +95,7 @@ pub fn analysis_of(dir: &Path) -> Result<Summary, HarnessError> {
 pub fn record(dir: &Path, to: &Path) -> Result<(), HarnessError> {
     let KeptStudy { study, mut context, records, recorded } = KeptStudy::read(dir)?;
     if !recorded {
-        context.flicker = crate::flicker::measure(&study, &context, &records, dir).measured;
+        context.flicker = flicker(&study, &context, &records, &FolderImages(dir)).measured;
     }
     let layout = Layout::new(to);
     std::fs::create_dir_all(to).map_err(HarnessError::io("make folder", to))?;

@@ -1,26 +1,28 @@
 //! Where the frames and the reference of a scene come from: rendered here, drawn from a known law, or imported.
 
-mod classes;
 mod folder;
+mod quantities;
 mod rendered;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::{Fidelity, Finding, Frame, Hygiene, Reference, Sampling};
+use noisefloor_frame::{Fidelity, Finding, Frame, Hygiene, Maps, Reference, Sampling};
+use noisefloor_questions::PixelClasses;
 use noisefloor_render::{Keep, Quantity};
 use noisefloor_synthetic::SyntheticScene;
 use serde_json::json;
 
-use crate::cache::{Cache, Key, key_of, seed_of};
+use crate::cache::Cache;
 use crate::error::HarnessError;
-use crate::fingerprint::{self, Bits};
 use crate::observer::Observer;
-use crate::plan::Row;
-use crate::study::{AdaptiveFrames, RowFrames, SceneSource, SceneSpec, Shot, Study};
+use crate::row::Row;
+use noisefloor_study::plan::{Placed, ReferenceRange};
+use noisefloor_study::{AdaptiveFrames, Place, RowFrames, SceneSource, SceneSpec, Shot, Study, StudyError};
+use noisefloor_study::{Bits, hash_of_frame};
+use noisefloor_study::{Key, key_of, seed_of};
 
-pub(crate) use classes::PixelClasses;
 use folder::Imported;
-pub(crate) use rendered::fresh_maps;
+pub(crate) use quantities::recorded;
 use rendered::{PROBE, PROBE_SPP, Rendered};
 
 /// A noisy frame that the plan asks for.
@@ -55,6 +57,17 @@ impl FrameSpec {
     }
 }
 
+impl FrameKind {
+    /// In the words of the plan.
+    pub(crate) fn placed(self) -> Placed {
+        match self {
+            Self::Uniform => Placed::Uniform,
+            Self::Samples(_) => Placed::Samples,
+            Self::Adaptive(_) => Placed::Rounds,
+        }
+    }
+}
+
 /// A noisy frame that was checked, see [`Frame::inspect`]: methods may look at it.
 #[derive(Debug, Clone)]
 pub(crate) struct Checked {
@@ -82,6 +95,8 @@ pub(crate) struct Scene {
     /// Kind of sampling of the noisy frames.
     pub(crate) sampling: Sampling,
     pub(crate) settings: BTreeMap<String, String>,
+    /// Which photon maps light the frames, if any do.
+    pub(crate) maps: Option<Maps>,
     pub(crate) frames: Vec<FrameSpec>,
     /// What the headers of its files show.
     pub(crate) findings: Vec<Finding>,
@@ -209,6 +224,20 @@ impl Scene {
         pixels * (frames.sum::<u64>() + parts)
     }
 
+    /// Camera samples of a frame of so many samples per pixel; 0 where nothing is rendered.
+    pub(crate) fn camera_samples(&self, spp: u64) -> u64 {
+        match self.source {
+            Source::Rendered(_) => (self.width * self.height) as u64 * spp,
+            Source::Synthetic(_) | Source::Imported(_) => 0,
+        }
+    }
+
+    /// The samples of the reference, in the order in which they are merged.
+    pub(crate) fn reference_ranges(&self) -> Vec<ReferenceRange> {
+        let Source::Rendered(rendered) = &self.source else { return Vec::new() };
+        rendered.reference_ranges(&self.id)
+    }
+
     /// Renders, draws or reads a frame, and checks it; `row` is who steers it, if it is adaptive.
     pub(crate) fn frame(
         &self,
@@ -285,8 +314,8 @@ fn synthetic(
     size: Option<(usize, usize)>,
 ) -> Result<Scene, HarnessError> {
     let scene = match size {
-        Some((width, height)) => scene.resized(width, height).map_err(|e| HarnessError::Field {
-            place: crate::Place { file: format!("study `{}`", study.name), line: None },
+        Some((width, height)) => scene.resized(width, height).map_err(|e| StudyError::Field {
+            place: Place::of_study(&study.name, None),
             field: format!("scene `{}`: size", spec.id),
             value: format!("{width}×{height}"),
             allowed: e.to_string(),
@@ -316,6 +345,7 @@ fn synthetic(
         height: scene.height(),
         sampling: Sampling::Independent,
         settings,
+        maps: None,
         frames,
         findings: Vec::new(),
         extra_features: BTreeSet::new(),
@@ -338,7 +368,7 @@ fn synthetic_probes(scene: &SyntheticScene) -> (Key, Key) {
     let mut truth = Bits::of("truth");
     truth.frame(&small.truth().frame);
     PixelClasses::from(small.classes()).add_to(&mut truth);
-    (fingerprint::frame(&small.render(PROBE_SPP, 0)), truth.finish())
+    (hash_of_frame(&small.render(PROBE_SPP, 0)), truth.finish())
 }
 
 /// Random seed of a noisy frame.

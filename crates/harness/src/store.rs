@@ -14,7 +14,7 @@ use serde::{Serialize, de::DeserializeOwned};
 
 use crate::error::HarnessError;
 
-pub(crate) use kept::{Files, damaged, hash_of, whole};
+pub(crate) use kept::{FolderImages, damaged, hash_of, whole};
 pub(crate) use records::Records;
 pub(crate) use superseded::Superseded;
 pub(crate) use sweep::sweep;
@@ -64,44 +64,14 @@ impl Layout {
         self.root.join("context.json")
     }
 
+    /// Everything that a run means to do, one JSON object per line.
+    pub(crate) fn plan(&self) -> PathBuf {
+        self.root.join("plan.jsonl")
+    }
+
     /// The analysis.
     pub(crate) fn summary(&self) -> PathBuf {
         self.root.join("summary.json")
-    }
-
-    /// The reference of a scene, relative.
-    pub(crate) fn reference(scene: &str) -> String {
-        format!("reference/{scene}.exr")
-    }
-
-    /// Description of a scene, relative.
-    pub(crate) fn scene(scene: &str) -> String {
-        format!("reference/{scene}.json")
-    }
-
-    /// What is kept of a scene's frames to hold them against each other, relative.
-    pub(crate) fn sketches(scene: &str) -> String {
-        format!("reference/{scene}.sketches.json")
-    }
-
-    /// Pixel classes of a scene, relative.
-    pub(crate) fn classes(scene: &str) -> String {
-        format!("reference/{scene}.classes.exr")
-    }
-
-    /// A denoised image, relative.
-    pub(crate) fn image(scene: &str, slug: &str, spp: u32, replicate: u32) -> String {
-        format!("images/{scene}/{slug}/spp{spp:05}-r{replicate}.exr")
-    }
-
-    /// A diagnostic image, relative.
-    pub(crate) fn diagnostic(scene: &str, slug: &str, spp: u32, replicate: u32, name: &str) -> String {
-        format!("diagnostics/{scene}/{slug}/spp{spp:05}-r{replicate}-{name}.exr")
-    }
-
-    /// What a program outside said, relative.
-    pub(crate) fn log(scene: &str, slug: &str, spp: u32, replicate: u32) -> String {
-        format!("logs/{scene}/{slug}/spp{spp:05}-r{replicate}.txt")
     }
 
     /// Removes what killed processes left half written in the folders of a study, and nothing in others that stand beside
@@ -189,6 +159,16 @@ pub(crate) fn write_json(path: &Path, value: &impl Serialize) -> Result<(), Harn
         message: e.to_string(),
     })?;
     text.push(b'\n');
+    write_whole(path, &text)
+}
+
+/// Writes one JSON object per line, whole.
+pub(crate) fn write_json_lines(path: &Path, values: &[impl Serialize]) -> Result<(), HarnessError> {
+    let mut text = Vec::new();
+    for value in values {
+        serde_json::to_writer(&mut text, value).map_err(|e| HarnessError::kept(path, e))?;
+        text.push(b'\n');
+    }
     write_whole(path, &text)
 }
 

@@ -23,7 +23,7 @@ mod summarise;
 mod view;
 
 pub use breakage::violations;
-pub use cell::{Cell, Measure, MeasureError, PixelClasses};
+pub use cell::{Cell, Measure, MeasureError, PixelClasses, UnknownClass};
 pub use error::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub use flicker::{Images, Sequences, flicker};
 pub use measuring::measuring;

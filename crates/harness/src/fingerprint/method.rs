@@ -8,8 +8,8 @@ use noisefloor_denoiser::{DenoiseError, Figure, Input, Method, MethodCard, Outpu
 use noisefloor_frame::Frame;
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene, hard_case};
 
-use crate::cache::Key;
-use crate::fingerprint::Bits;
+use noisefloor_study::Bits;
+use noisefloor_study::Key;
 
 /// Hard cases that between them meet the branches of methods: with and without features, flash, variance and halves, few
 /// samples, fireflies, no variance, values that had to be mended, counts that differ, images smaller than any window.

@@ -5,13 +5,13 @@ use std::path::Path;
 
 use noisefloor_frame::Sampling;
 
-use crate::context::{Context, PlannedScene, ReferenceContext, Row, SceneContext};
 use crate::error::HarnessError;
-use crate::record::Record;
 use crate::recorded::KeptStudy;
-use crate::store::{Files, Layout, Records, read_json};
-use crate::study::Study;
-use crate::summary::{SceneSummary, Summary};
+use crate::store::{Layout, Records, read_json};
+use noisefloor_study::Study;
+use noisefloor_study::context::{Context, Files, PlannedScene, ReferenceContext, RowContext, SceneContext};
+use noisefloor_study::record::Record;
+use noisefloor_study::summary::{SceneSummary, Summary};
 
 /// Reads a recording of a built-in study; what else the study was is not in such a recording.
 pub(super) fn read(dir: &Path) -> Result<KeptStudy, HarnessError> {
@@ -69,7 +69,11 @@ fn context(study: &Study, summary: &Summary, records: &[Record]) -> Context {
         command: summary.study.command.clone(),
         environment: summary.environment.clone(),
         // What the card claims about convergence is not in a summary, and the analysis does not ask.
-        methods: summary.methods.iter().map(|m| Row { summary: m.clone(), consistent: false }).collect(),
+        methods: summary
+            .methods
+            .iter()
+            .map(|m| RowContext { summary: m.clone(), consistent: false })
+            .collect(),
         plan: plan.collect(),
         scenes: scenes.collect(),
         flicker: Vec::new(),
@@ -86,6 +90,7 @@ fn of_scene(scene: &SceneSummary, sampling: Sampling) -> SceneContext {
         height: scene.height as usize,
         sampling,
         settings: scene.settings.clone(),
+        maps: None,
         replicates: scene.replicates.clone(),
         classes: scene.classes.iter().map(|(name, pixels)| (name.clone(), *pixels)).collect(),
         reference: ReferenceContext {

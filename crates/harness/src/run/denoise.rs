@@ -5,11 +5,11 @@ use std::time::Instant;
 use noisefloor_denoiser::{DenoiseError, Diagnostic, Diagnostics, Input, Output, StageSeconds};
 use noisefloor_frame::Finding;
 
-use crate::analysis::median;
 use crate::fingerprint::attempt;
-use crate::plan::Row;
-use crate::record::Outcome;
-use crate::study::Timing;
+use crate::row::Row;
+use noisefloor_questions::median;
+use noisefloor_study::Timing;
+use noisefloor_study::record::Outcome;
 
 /// What a method gave, and how long it took.
 pub(super) struct Denoised {

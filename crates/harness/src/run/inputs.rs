@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::{Finding, Frame};
+use noisefloor_frame::{Finding, Frame, Maps};
 use noisefloor_inputs::{Against, Mean, Sketch, among};
 use serde::{Deserialize, Serialize};
 
-use crate::Maps;
-use crate::cache::Key;
-use crate::context::SceneContext;
 use crate::error::HarnessError;
 use crate::source::{FrameKind, FrameSpec, Scene};
 use crate::store::{Layout, read_json, write_json};
+use noisefloor_study::Key;
+use noisefloor_study::context::SceneContext;
+use noisefloor_study::files;
 
 /// Raise when sketches of before cannot be held against new ones.
 const VERSION: u32 = 1;
@@ -64,7 +64,7 @@ impl<'a> Inputs<'a> {
     ) -> Self {
         let spp = (scene.reference_spp > 0).then_some(scene.reference_spp as f64);
         let against = Against::new(reference, spp);
-        let kept: Option<Book> = read_json(&layout.root().join(Layout::sketches(&scene.id))).ok();
+        let kept: Option<Book> = read_json(&layout.root().join(files::sketches(&scene.id))).ok();
         let mut book = kept
             .filter(|book| book.version == VERSION && book.reference == scene.reference_key)
             .unwrap_or_default();
@@ -89,9 +89,8 @@ impl<'a> Inputs<'a> {
         invalid: &[bool],
         context: &mut SceneContext,
     ) -> Result<Vec<Finding>, HarnessError> {
-        let fresh = crate::measure::photon_maps(frame) == Some(Maps::Fresh);
-        let placed = matches!(spec.kind, FrameKind::Adaptive(_))
-            || frame.provenance.extra.contains_key(crate::measure::ADAPTIVE);
+        let fresh = frame.provenance.maps() == Some(Maps::Fresh);
+        let placed = matches!(spec.kind, FrameKind::Adaptive(_)) || frame.provenance.rounds.is_some();
         let mean = if fresh || placed { Mean::Biased } else { Mean::OfTheReference };
         let check = self.against.frame(frame, invalid, mean);
         // Rounds begin with the samples of the uniform frame of the same seed: their rows are never compared as if they
@@ -113,7 +112,7 @@ impl<'a> Inputs<'a> {
         let found = among(&self.against, &frames);
         context.findings.clone_from(&self.before);
         context.findings.extend(found.into_iter().map(|found| found.within(&self.scene.id)));
-        write_json(&self.layout.ready(&Layout::sketches(&self.scene.id))?, &self.book)?;
-        write_json(&self.layout.ready(&Layout::scene(&self.scene.id))?, context)
+        write_json(&self.layout.ready(&files::sketches(&self.scene.id))?, &self.book)?;
+        write_json(&self.layout.ready(&files::scene(&self.scene.id))?, context)
     }
 }

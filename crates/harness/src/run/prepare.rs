@@ -6,12 +6,15 @@ use noisefloor_frame::{Reference, SquaredError};
 use noisefloor_metrics::{Classes, Measurer};
 
 use crate::cache::Cache;
-use crate::context::{ReferenceContext, SceneContext};
 use crate::error::HarnessError;
-use crate::fingerprint::measuring;
 use crate::observer::Observer;
-use crate::source::{PixelClasses, Scene};
-use crate::store::{Files, Layout, damaged, hash_of, read_json, write_json};
+use crate::source::Scene;
+use crate::store::{Layout, damaged, hash_of, read_json, write_json};
+use noisefloor_questions::PixelClasses;
+use noisefloor_questions::measuring;
+use noisefloor_study::context::Files;
+use noisefloor_study::context::{ReferenceContext, SceneContext};
+use noisefloor_study::files;
 
 /// What cells of a scene are measured against.
 pub(super) struct Truth {
@@ -30,19 +33,20 @@ impl Truth {
 /// The scene's description from an earlier run, if its reference is still the right one, the measuring is that of this
 /// program, and its files are what was written.
 pub(super) fn kept_context(layout: &Layout, scene: &Scene) -> Option<SceneContext> {
-    let kept: SceneContext = read_json(&layout.root().join(Layout::scene(&scene.id))).ok()?;
+    let kept: SceneContext = read_json(&layout.root().join(files::scene(&scene.id))).ok()?;
     // What it says of the reference is of one measuring, as the numbers of the records are.
     let right = kept.reference.key == scene.reference_key && kept.measuring == measuring();
     (right && damaged(layout.root(), &kept.files).is_empty()).then(|| SceneContext {
         replicates: scene.replicates(),
         settings: scene.settings.clone(),
+        maps: scene.maps,
         ..kept
     })
 }
 
 /// The scene's kept files that should be the right ones and are not what was written.
 pub(super) fn damaged_files(layout: &Layout, scene: &Scene) -> Vec<String> {
-    let description = Layout::scene(&scene.id);
+    let description = files::scene(&scene.id);
     match read_json::<SceneContext>(&layout.root().join(&description)) {
         Ok(kept) if kept.reference.key == scene.reference_key => damaged(layout.root(), &kept.files),
         Err(HarnessError::Kept { .. }) => vec![description],
@@ -84,6 +88,7 @@ pub(super) fn truth(
         height: scene.height,
         sampling: scene.sampling,
         settings: scene.settings.clone(),
+        maps: scene.maps,
         replicates: scene.replicates(),
         classes: named
             .map(|(index, name)| (name.clone(), counts.get(&index).copied().unwrap_or(0)))
@@ -103,7 +108,7 @@ pub(super) fn truth(
         findings,
     };
     // With its parts: metrics that are computed again are the run's own.
-    let (image, map) = (Layout::reference(&scene.id), Layout::classes(&scene.id));
+    let (image, map) = (files::reference(&scene.id), files::classes(&scene.id));
     noisefloor_io::write_reference(layout.ready(&image)?, &reference)?;
     let indices = truth.classes.to_image(scene.width, scene.height);
     noisefloor_io::write_image(layout.ready(&map)?, &indices, &BTreeMap::new())?;
@@ -111,7 +116,7 @@ pub(super) fn truth(
         let hash = hash_of(&layout.root().join(&file))?;
         context.files.insert(file, hash);
     }
-    write_json(&layout.ready(&Layout::scene(&scene.id))?, &context)?;
+    write_json(&layout.ready(&files::scene(&scene.id))?, &context)?;
     drop(measurer);
     Ok((truth, context))
 }

@@ -2,14 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::cache::Key;
 use crate::error::HarnessError;
-use crate::fingerprint::measuring;
 use crate::observer::Observer;
-use crate::plan::{Plan, Row};
-use crate::record::{Outcome, Record};
-use crate::run::{StudyRun, cells, file_name};
+use crate::plan::Plan;
+use crate::run::claim::file_name;
+use crate::run::request::StudyRun;
 use crate::store::{Layout, Records, Superseded, whole};
+use noisefloor_questions::measuring;
+use noisefloor_study::Key;
+use noisefloor_study::record::{Outcome, Record};
 
 /// What stands before the first cell runs.
 pub(super) struct Settled {
@@ -42,14 +43,9 @@ impl Owners {
     }
 }
 
-/// Whether a row is meant by a name given to run again.
-fn is_named(row: &Row, names: &[String]) -> bool {
-    names.iter().any(|name| *name == row.label || *name == row.method.id)
-}
-
 /// Refuses names to run again that no row has.
 pub(super) fn check_again(request: &StudyRun<'_>, plan: &Plan) -> Result<(), HarnessError> {
-    let known = |name: &&String| plan.rows.iter().any(|row| is_named(row, std::slice::from_ref(name)));
+    let known = |name: &&String| plan.rows.iter().any(|row| row.is_named(std::slice::from_ref(name)));
     match request.again.iter().find(|name| !known(name)) {
         Some(name) => Err(HarnessError::NoRow {
             name: name.clone(),
@@ -68,11 +64,11 @@ pub(super) fn settle(
 ) -> Result<Settled, HarnessError> {
     let mut planned = BTreeSet::new();
     let mut again = BTreeSet::new();
-    for ((_, _, row), key) in cells(request.study, plan) {
-        if is_named(row, request.again) {
-            again.insert(key.clone());
+    for cell in &plan.cells {
+        if plan.row(cell).is_named(request.again) {
+            again.insert(cell.key.clone());
         }
-        planned.insert(key);
+        planned.insert(cell.key.clone());
     }
     let mut told = Told::default();
     let (mut kept, mut keep, mut aside) = (BTreeSet::new(), Vec::new(), Vec::new());

@@ -8,11 +8,11 @@ use noisefloor_inputs::{Origin, shared_seed};
 use noisefloor_io::{FileInfo, FrameFile, FrameFolder, ReadOptions, read_checked_reference, read_frame_file};
 use serde_json::json;
 
-use crate::cache::{Key, key_of};
 use crate::error::HarnessError;
 use crate::source::{FrameKind, FrameSpec, Scene, Source};
 use crate::store::hash_of;
-use crate::study::SceneSpec;
+use noisefloor_study::SceneSpec;
+use noisefloor_study::{Key, key_of};
 
 /// The files of an imported scene.
 pub(super) struct Imported {
@@ -76,6 +76,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         height: info.height,
         sampling: folder.frames[0].info.sampling,
         settings,
+        maps: None,
         frames,
         findings: findings.into_iter().chain(layer_findings(&spec.id, &folder)).collect(),
         extra_features: layers(&folder),

@@ -15,13 +15,18 @@ use noisefloor_render::{
 };
 use serde_json::{Value, json};
 
-use crate::cache::{Cache, Key, Lookup, key_of, seed_of};
+use crate::cache::{Cache, Lookup};
 use crate::error::HarnessError;
-use crate::fingerprint::{self, Bits};
 use crate::observer::{Observer, Silent, Stage};
-use crate::plan::Row;
-use crate::source::{FrameKind, FrameSpec, PixelClasses, Scene, Source, frame_seed, frame_specs};
-use crate::study::{AdaptiveFrames, Maps, ReferenceSpec, SceneSource, SceneSpec, Shot, Study};
+use crate::row::Row;
+use crate::source::{FrameKind, FrameSpec, Scene, Source, frame_seed, frame_specs};
+use noisefloor_questions::PixelClasses;
+use noisefloor_study::plan::ReferenceRange;
+use noisefloor_study::{
+    AdaptiveFrames, Maps, Place, ReferenceSpec, SceneSource, SceneSpec, Shot, Study, StudyError,
+};
+use noisefloor_study::{Bits, hash_of_frame};
+use noisefloor_study::{Key, key_of, seed_of};
 
 /// A scene with everything that all its frames have in common.
 pub(super) struct Rendered {
@@ -56,12 +61,6 @@ pub(super) struct Rendered {
 const LIGHT_SETTING: &str = "light";
 const PHOTON_SETTING: &str = "photon maps";
 
-/// Whether frames with these settings were lit by photon maps that their reference does not share.
-pub(crate) fn fresh_maps(settings: &BTreeMap<String, String>) -> bool {
-    let says = |name: &str, start: &str| settings.get(name).is_some_and(|value| value.starts_with(start));
-    says(LIGHT_SETTING, Integrator::PhotonMapping.name()) && says(PHOTON_SETTING, Maps::Fresh.name())
-}
-
 /// The scene before its moment is chosen, what it is, what its file could not give, and what tells it from others.
 fn build(
     study: &Study,
@@ -74,10 +73,8 @@ fn build(
             Ok((loaded.scene, format!("glTF file {name}"), loaded.notices))
         }
         SceneSource::Builtin(id) => {
-            let entry = noisefloor_scenes::find(id).map_err(|source| HarnessError::Scene {
-                place: crate::Place { file: format!("study `{}`", study.name), line: None },
-                source,
-            })?;
+            let entry = noisefloor_scenes::find(id)
+                .map_err(|source| StudyError::Scene { place: Place::of_study(&study.name, None), source })?;
             Ok(((entry.build)(), entry.about.to_owned(), Vec::new()))
         }
         SceneSource::Synthetic(_) | SceneSource::Folder(_) => unreachable!("these are not rendered"),
@@ -124,7 +121,7 @@ pub(super) fn open(
             ..RenderRequest::new(&prepared, PROBE[0], PROBE[1], PROBE_SPP)
         };
         let mut look = json!({
-            "scene": content_hash(&scene), "renderer": fingerprint::frame(&render(&probe, &noisefloor_render::Silent)?),
+            "scene": content_hash(&scene), "renderer": hash_of_frame(&render(&probe, &noisefloor_render::Silent)?),
             "width": width, "height": height, "depth": depth, "filter": filter, "sampling": sampling,
         });
         // Frames without features are the same for all, and those of before had no such choice.
@@ -203,6 +200,7 @@ pub(super) fn open(
         height,
         sampling: study.sampling,
         settings,
+        maps: (shot.integrator == Integrator::PhotonMapping).then_some(shot.maps),
         frames,
         findings: Vec::new(),
         extra_features: BTreeSet::new(),
@@ -292,6 +290,21 @@ impl Rendered {
         self.parts.iter().filter(|(key, _)| !cache.has(key)).map(|_| per_part).sum()
     }
 
+    /// One range for each part.
+    pub(super) fn reference_ranges(&self, scene: &str) -> Vec<ReferenceRange> {
+        let per_part = u64::from(self.reference.spp / self.reference.parts);
+        let range = |(part, (key, seed)): (usize, &(Key, u64))| ReferenceRange {
+            scene: scene.to_owned(),
+            key: key.clone(),
+            from: part as u64 * per_part,
+            to: (part as u64 + 1) * per_part,
+            seed: *seed,
+            sampling: self.reference.sampling,
+            samples: per_part * (self.width * self.height) as u64,
+        };
+        self.parts.iter().enumerate().map(range).collect()
+    }
+
     /// The frame of the same replicate with another number of samples in every pixel: that of a study which has it as
     /// a level.
     pub(super) fn with_samples(&self, frame: &FrameSpec, spp: u32) -> FrameSpec {
@@ -324,7 +337,7 @@ impl Rendered {
             };
             let label = (spp, row.label.as_str());
             match adaptive::render(&request, adaptive, label, row.method.denoiser.adaptive(), &Silent) {
-                Ok(frame) => fingerprint::frame(&frame),
+                Ok(frame) => hash_of_frame(&frame),
                 // Told when a real frame is rendered.
                 Err(_) => "no density".to_owned(),
             }
@@ -365,8 +378,7 @@ impl Rendered {
             // What this frame would have cost alone.
             frame.provenance.render_seconds = frame.provenance.render_seconds.map(|s| s + maps.seconds());
             if self.shot.integrator == Integrator::PhotonMapping {
-                let maps = self.shot.maps.name().to_owned();
-                frame.provenance.extra.insert(crate::measure::PHOTON_MAPS.into(), maps);
+                frame.provenance.photon_maps = Some(self.shot.maps);
             }
             Ok(frame)
         })

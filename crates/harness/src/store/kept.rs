@@ -1,13 +1,31 @@
 //! Files that must be what was written: their hashes are in the records and in the descriptions of scenes.
 
-use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
+use noisefloor_frame::{Image, Reference};
+use noisefloor_io::{ReadOptions, read_color, read_reference};
+use noisefloor_questions::Images;
+use noisefloor_study::context::Files;
+use noisefloor_study::files;
+
 use crate::error::HarnessError;
 
-/// Path relative to the study's folder, and the hash of the file there.
-pub(crate) type Files = BTreeMap<String, String>;
+/// The images in a study's folder.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FolderImages<'a>(pub(crate) &'a Path);
+
+impl Images for FolderImages<'_> {
+    fn color(&self, path: &str) -> Result<Image, String> {
+        read_color(self.0.join(path)).map_err(|error| error.to_string())
+    }
+
+    fn reference(&self, scene: &str) -> Result<Reference, String> {
+        // The sample count of a reference plays no part here.
+        let options = ReadOptions { spp: Some(1), ..ReadOptions::default() };
+        read_reference(self.0.join(files::reference(scene)), &options).map_err(|error| error.to_string())
+    }
+}
 
 /// Hash of a file's bytes in hexadecimal.
 pub(crate) fn hash_of(path: &Path) -> Result<String, HarnessError> {

@@ -3,8 +3,8 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::error::HarnessError;
-use crate::record::{RECORD_SCHEMA, Record};
 use crate::store::{append_lines, write_whole};
+use noisefloor_study::record::{RECORD_SCHEMA, Record};
 
 /// `results.jsonl`: whole lines, appended and brought to disk one by one.
 #[derive(Debug)]

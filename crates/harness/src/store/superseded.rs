@@ -2,9 +2,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::HarnessError;
-use crate::record::Record;
 use crate::store::append_lines;
 use crate::store::records::{Records, line_of};
+use noisefloor_study::record::Record;
 
 /// `results.superseded.jsonl`: records that the study, a method or the metrics of the moment have no use for. Nothing is
 /// ever taken out of it, so that a study which goes back to what it was finds them.

@@ -4,14 +4,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use noisefloor_denoiser::{Adaptive, Input};
-use noisefloor_frame::Frame;
+use noisefloor_frame::{Frame, Rounds as RoundsTold};
 use noisefloor_render::{RenderRequest, Rounds, allocate};
 
 use super::{advance, stopped};
 use crate::error::HarnessError;
-use crate::measure::{ADAPTIVE, DENSITY_SECONDS};
 use crate::observer::Observer;
-use crate::study::AdaptiveFrames;
+use noisefloor_study::AdaptiveFrames;
 
 /// Renders level `spp` for the row `label`: a uniform round, then rounds whose samples go where the method wants them
 /// after what it has seen so far.
@@ -55,7 +54,7 @@ pub(super) fn render(
     let mut frame = rounds.frame()?;
     frame.provenance.render_seconds = Some(start.elapsed().as_secs_f64());
     frame.provenance.render_threads.get_or_insert(rayon::current_num_threads() as u32);
-    frame.provenance.extra.insert(ADAPTIVE.into(), adaptive.rounds.to_string());
-    frame.provenance.extra.insert(DENSITY_SECONDS.into(), density_seconds.to_string());
+    frame.provenance.rounds =
+        Some(RoundsTold { count: adaptive.rounds, density_seconds: Some(density_seconds) });
     Ok(frame)
 }
