@@ -63,7 +63,6 @@ impl Plan {
         Ok(Self { scenes, rows: all, cells })
     }
 
-
     /// The row of a cell, with the parameters that it has on the cell's scene.
     pub(crate) fn row(&self, cell: &CellPlan) -> &Row {
         &self.scenes[cell.scene].rows[cell.row]

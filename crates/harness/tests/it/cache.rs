@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::common::{Place, Watch, study, timeless};
-use noisefloor_harness::{Study, StudyRun};
+use noisefloor_harness::StudyRun;
+use noisefloor_study::Study;
 
 const SPP: usize = 2;
 const REFERENCE: usize = 16;
@@ -57,7 +58,7 @@ fn frames_and_references_are_rendered_once_for_all_studies() {
     // Another name, and one more replicate: two frames and the reference are there.
     let mut other = rendered();
     other.name = "other".into();
-    other.replicates = noisefloor_harness::Replicates::uniform(3);
+    other.replicates = noisefloor_study::Replicates::uniform(3);
     let second = Watch::default();
     place.run_to(&place.root.path().join("other"), &other, &second).unwrap();
     assert_eq!(second.samples(), PIXELS * SPP);

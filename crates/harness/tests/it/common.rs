@@ -9,10 +9,11 @@ use noisefloor_denoiser::{
     Registry, Unit, mc, method, parameters,
 };
 use noisefloor_frame::Image;
-use noisefloor_harness::record::{Outcome, Record, Seconds};
-use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{HarnessError, Observer, Study, StudyRun, Workload};
+use noisefloor_harness::{HarnessError, Observer, StudyRun, Workload};
 use noisefloor_stats::Level;
+use noisefloor_study::Study;
+use noisefloor_study::record::{Outcome, Record, Seconds};
+use noisefloor_study::summary::Summary;
 
 const CITATION: Citation = Citation::new("none", "made up for a test");
 

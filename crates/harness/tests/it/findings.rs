@@ -3,9 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{Estimate, FeatureId, Finding, FindingKind, Frame, Image, Variance};
-use noisefloor_harness::record::Outcome;
-use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{MethodRow, Study};
+use noisefloor_harness::study_of_folder;
+use noisefloor_study::MethodRow;
+use noisefloor_study::record::Outcome;
+use noisefloor_study::summary::Summary;
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
 use crate::common::{Place, Watch, records};
@@ -28,7 +29,7 @@ fn folder(place: &Place, edit: impl FnOnce(&mut Frame)) -> PathBuf {
 
 fn run(place: &Place, folder: &Path) -> Summary {
     let rows = vec![MethodRow::new("mc"), MethodRow::new("blur"), MethodRow::new("judge")];
-    place.run(&Study::for_folder(folder, None, rows).unwrap(), &Watch::default()).unwrap()
+    place.run(&study_of_folder(folder, None, rows).unwrap(), &Watch::default()).unwrap()
 }
 
 fn kinds(findings: &[Finding]) -> Vec<FindingKind> {
@@ -106,7 +107,7 @@ fn a_reference_without_a_valid_pixel_ends_the_run() {
     let mut truth = scene().truth();
     truth.frame.color.mean.data_mut().fill(f32::NAN);
     noisefloor_io::write_reference(folder.join("reference.exr"), &truth).unwrap();
-    let study = Study::for_folder(&folder, None, vec![MethodRow::new("mc")]).unwrap();
+    let study = study_of_folder(&folder, None, vec![MethodRow::new("mc")]).unwrap();
     let error = place.run(&study, &Watch::default()).unwrap_err().to_string();
     assert!(error.contains("kitchen") && error.contains("no common pixel"), "{error}");
 }

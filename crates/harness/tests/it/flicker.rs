@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use noisefloor_harness::summary::{FlickerSummary, Source, Summary};
-use noisefloor_harness::{HarnessError, Study, reanalyse};
+use noisefloor_harness::{HarnessError, reanalyse};
+use noisefloor_study::summary::{FlickerSummary, Source, Summary};
+use noisefloor_study::{Study, StudyError};
 
 use crate::common::{Place, Watch, study};
 
@@ -92,7 +93,12 @@ fn a_row_that_fails_or_a_replicate_that_is_missing_takes_no_part() {
     let nothing = text.replace("id = \"f3\"\n", "id = \"f3\"\nspp = [8]\n");
     let summary = place.run(&study(&nothing), &Watch::default()).unwrap();
     assert!(summary.flicker.is_empty());
-    assert!(summary.warnings.iter().any(|w| w.contains("sequence still: flicker is left out: no replicate")));
+    assert!(
+        summary
+            .warnings
+            .iter()
+            .any(|w| w.to_string().contains("sequence still: flicker is left out: no replicate"))
+    );
 }
 
 #[test]
@@ -101,7 +107,9 @@ fn a_stopped_study_has_no_flicker_and_a_lost_image_is_told() {
     let study = study(&sequence(2, ""));
     place.run(&study, &Watch::stopping_after(15)).unwrap_err();
     let stopped = reanalyse(&place.out(), false).unwrap();
-    assert!(stopped.flicker.is_empty() && !stopped.warnings.iter().any(|w| w.contains("flicker")));
+    assert!(
+        stopped.flicker.is_empty() && !stopped.warnings.iter().any(|w| w.to_string().contains("flicker"))
+    );
     let whole = place.run(&study, &Watch::default()).unwrap();
     assert_eq!(whole.flicker.len(), 2 * 3);
     std::fs::remove_file(place.out().join("images/f1/blur/spp00016-r1.exr")).unwrap();
@@ -117,8 +125,8 @@ fn a_stopped_study_has_no_flicker_and_a_lost_image_is_told() {
     let blind = reanalyse(&place.out(), false).unwrap();
     assert!(blind.flicker.is_empty());
     let told =
-        |w: &&String| w.contains("sequence still: flicker is left out: ") && w.contains("reference/f2.exr");
-    assert!(blind.warnings.iter().any(|w| told(&w)), "{:?}", blind.warnings);
+        |w: &String| w.contains("sequence still: flicker is left out: ") && w.contains("reference/f2.exr");
+    assert!(blind.warnings.iter().any(|w| told(&w.to_string())), "{:?}", blind.warnings);
 }
 
 #[test]
@@ -196,6 +204,6 @@ fn sequences_that_make_no_sense_are_refused() {
     // Sizes are known once the scenes are open.
     let wide = text.replacen("width = 64", "width = 32", 1);
     let error = Place::new().run(&study(&wide), &Watch::default()).unwrap_err();
-    assert!(matches!(error, HarnessError::Field { .. }));
+    assert!(matches!(error, HarnessError::Study(StudyError::Field { .. })));
     assert!(error.to_string().contains("sequence `still`: size is 32×48 and 64×48"), "{error}");
 }

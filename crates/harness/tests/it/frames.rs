@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use crate::common::{Place, Watch, records, study};
-use noisefloor_harness::Study;
-use noisefloor_harness::record::Record;
+use noisefloor_study::Study;
+use noisefloor_study::record::Record;
 
 const PIXELS: usize = 16 * 12;
 
@@ -80,7 +80,7 @@ fn adaptive_rows_are_refused_where_they_cannot_be() {
     let summary = place.run(&lost, &Watch::default()).unwrap();
     // The other rows ran.
     let [failed] = summary.skipped.as_slice() else { panic!("{:?}", summary.skipped) };
-    assert_eq!((failed.label.as_str(), failed.status.as_str()), ("seeker", "failed"));
+    assert_eq!((failed.label.as_str(), failed.status.name()), ("seeker", "failed"));
     assert!(
         failed.reason.contains("no sampling density") && failed.reason.contains("way"),
         "{}",

@@ -3,8 +3,10 @@
 use std::path::Path;
 
 use noisefloor_frame::{Estimate, Frame, Reference, Sampling};
-use noisefloor_harness::summary::Source;
-use noisefloor_harness::{HarnessError, MethodRow, Study};
+use noisefloor_harness::HarnessError;
+use noisefloor_harness::study_of_folder;
+use noisefloor_study::summary::Source;
+use noisefloor_study::{MethodRow, Study};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
 use crate::common::{Place, Watch, records};
@@ -42,7 +44,7 @@ fn a_folder_of_frames_is_a_study_with_intervals_from_within_the_image() {
     let place = Place::new();
     let folder = place.root.path().join("kitchen");
     write(&folder);
-    let study = Study::for_folder(&folder, None, rows()).unwrap();
+    let study = study_of_folder(&folder, None, rows()).unwrap();
     assert_eq!((study.name.as_str(), study.spp.as_slice()), ("kitchen", &[4, 16][..]));
     let summary = place.run(&study, &Watch::default()).unwrap();
     assert_eq!(summary.cells.len(), 8);
@@ -69,7 +71,11 @@ fn a_folder_of_frames_is_a_study_with_intervals_from_within_the_image() {
         // 96×64 pixels of exact normal samples.
         assert!((row.covered.value - row.confidence).abs() < 0.02, "{row:?}");
     }
-    assert!(summary.warnings.iter().any(|w| w.contains("one replicate per level")), "{:?}", summary.warnings);
+    assert!(
+        summary.warnings.iter().any(|w| w.to_string().contains("one replicate per level")),
+        "{:?}",
+        summary.warnings
+    );
     assert!(summary.comparisons.iter().all(|c| c.pairs.iter().all(|p| !p.distinguishable)));
     assert_eq!(summary.scenes[0].classes.keys().collect::<Vec<_>>(), ["edge", "flat"]);
 
@@ -88,7 +94,7 @@ fn a_folder_of_folders_is_a_study_of_several_scenes() {
     let folder = place.root.path().join("frames");
     write(&folder.join("kitchen"));
     write(&folder.join("garden"));
-    let study = Study::for_folder(&folder, None, rows()).unwrap();
+    let study = study_of_folder(&folder, None, rows()).unwrap();
     let ids: Vec<&str> = study.scenes.iter().map(|s| s.id.as_str()).collect();
     assert_eq!(ids, ["garden", "kitchen"]);
 }
@@ -122,7 +128,7 @@ fn an_empty_or_missing_folder_is_an_error_that_names_it() {
         if name == "empty" {
             std::fs::create_dir(&folder).unwrap();
         }
-        let error = Study::for_folder(&folder, None, rows()).unwrap_err();
+        let error = study_of_folder(&folder, None, rows()).unwrap_err();
         assert!(matches!(error, HarnessError::Image(_)) && error.to_string().contains(name), "{error}");
     }
 }

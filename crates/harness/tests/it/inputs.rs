@@ -3,7 +3,9 @@
 use std::path::Path;
 
 use noisefloor_frame::{Estimate, FindingKind, Frame, Reference, Variance};
-use noisefloor_harness::{HarnessError, MethodRow, Study};
+use noisefloor_harness::HarnessError;
+use noisefloor_harness::study_of_folder;
+use noisefloor_study::{MethodRow, Study};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
 use crate::common::{Place, Watch, study};
@@ -32,7 +34,7 @@ fn reference(folder: &Path) {
 }
 
 fn of_folder(folder: &Path) -> Study {
-    Study::for_folder(folder, None, vec![MethodRow::new("mc")]).unwrap()
+    study_of_folder(folder, None, vec![MethodRow::new("mc")]).unwrap()
 }
 
 #[test]

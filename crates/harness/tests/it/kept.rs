@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::{FindingKind, Image};
-use noisefloor_harness::summary::{Interval, Summary};
 use noisefloor_harness::{HarnessError, reanalyse, reanalyse_into};
+use noisefloor_study::summary::{Interval, Summary};
 
 use crate::common::{Place, Watch, records, small, timeless};
 
@@ -54,7 +54,11 @@ fn a_damaged_image_is_named_by_a_report_and_made_again_by_a_run() {
             let watch = Watch::default();
             let summary = place.run(&small(), &watch).unwrap();
             assert_eq!((watch.cells(), timeless(&place.out())), (1, before.clone()), "{path}");
-            assert!(watch.warnings().iter().any(|w| w.starts_with(path)), "{:?}", watch.warnings());
+            assert!(
+                watch.warnings().iter().any(|w| w.to_string().starts_with(path)),
+                "{:?}",
+                watch.warnings()
+            );
             assert!(std::fs::read(&file).unwrap() == good && summary.findings.is_empty());
         }
     }
@@ -78,7 +82,11 @@ fn damaged_references_and_class_maps_are_named_by_a_report_and_written_again_by_
             let watch = Watch::default();
             let summary = place.run(&small(), &watch).unwrap();
             assert_eq!((watch.cells(), timeless(&place.out())), (0, before.clone()));
-            assert!(watch.warnings().iter().any(|w| w.starts_with(path)), "{:?}", watch.warnings());
+            assert!(
+                watch.warnings().iter().any(|w| w.to_string().starts_with(path)),
+                "{:?}",
+                watch.warnings()
+            );
             assert!(std::fs::read(&file).unwrap() == good && summary.findings.is_empty(), "{path}");
         }
     }
@@ -104,7 +112,12 @@ fn damaged_descriptions_are_written_again() {
         let watch = Watch::default();
         place.run(&small(), &watch).unwrap();
         assert_eq!((watch.cells(), timeless(&place.out())), (0, before.clone()), "{path}");
-        assert_eq!(watch.warnings().iter().any(|w| w.starts_with(path)), say, "{:?}", watch.warnings());
+        assert_eq!(
+            watch.warnings().iter().any(|w| w.to_string().starts_with(path)),
+            say,
+            "{:?}",
+            watch.warnings()
+        );
         reanalyse(&place.out(), false).unwrap();
     }
     // The name of the study is known from its records: another one is still refused.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use noisefloor_denoiser::{Registry, mc};
-use noisefloor_harness::{HarnessError, Study, memory_estimate};
+use noisefloor_harness::{HarnessError, memory_estimate};
+use noisefloor_study::{Study, StudyError};
 
 /// A study of one built-in scene, with more lines at its top, in its scene and in its row.
 fn toml(top: &str, scene: &str, row: &str) -> String {
@@ -14,7 +15,7 @@ fn toml(top: &str, scene: &str, row: &str) -> String {
 
 fn refused(text: &str) -> String {
     match Study::from_toml(text, Path::new("limits.toml")) {
-        Err(error @ HarnessError::Field { .. }) => error.to_string(),
+        Err(error @ StudyError::Field { .. }) => error.to_string(),
         other => panic!("{other:?}"),
     }
 }

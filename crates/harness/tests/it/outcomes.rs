@@ -4,8 +4,9 @@ use std::path::Path;
 
 use crate::common::{Place, Watch, records, study};
 use noisefloor_frame::FindingKind;
-use noisefloor_harness::record::Outcome;
-use noisefloor_harness::{HarnessError, Study, violations};
+use noisefloor_questions::violations;
+use noisefloor_study::record::Outcome;
+use noisefloor_study::{Study, StudyError};
 
 fn with_rows(rows: &str) -> Study {
     let start = crate::common::SMALL.split("[[method]]").next().unwrap();
@@ -29,7 +30,7 @@ fn methods_that_cannot_run_are_skipped_or_fail_with_a_reason_and_the_study_goes_
         .clone();
     let summary = place.run(&study, &Watch::default()).unwrap();
     let told: Vec<(&str, &str, &[u32])> =
-        summary.skipped.iter().map(|s| (s.label.as_str(), s.status.as_str(), s.spp.as_slice())).collect();
+        summary.skipped.iter().map(|s| (s.label.as_str(), s.status.name(), s.spp.as_slice())).collect();
     let both: &[u32] = &[4, 16];
     assert_eq!(
         told,
@@ -46,7 +47,11 @@ fn methods_that_cannot_run_are_skipped_or_fail_with_a_reason_and_the_study_goes_
     assert!(reason("panics").contains("no reason"));
     assert!(reason("shrinks").contains("1×1×3") && reason("shrinks").contains("24×16×3"));
     assert_eq!(summary.cells.iter().filter(|c| c.label == "blur").count(), 2);
-    assert!(summary.warnings.iter().any(|w| w.contains("panics failed on steps")), "{:?}", summary.warnings);
+    assert!(
+        summary.warnings.iter().any(|w| w.to_string().contains("panics failed on steps")),
+        "{:?}",
+        summary.warnings
+    );
     // What was skipped stays so; what failed is tried again.
     let watch = Watch::default();
     place.run(&study, &watch).unwrap();
@@ -72,8 +77,12 @@ fn values_that_are_not_finite_are_counted_and_left_out() {
     let cells = summary.cells.iter().filter(|cell| cell.label == "nan").count();
     assert_eq!(of_outputs.len(), cells, "one record per row and level: {of_outputs:?}");
     assert!(of_outputs[0].subject.starts_with("nan on steps at "), "{of_outputs:?}");
-    assert!(!summary.warnings.iter().any(|w| w.contains("not finite")), "said once: {:?}", summary.warnings);
-    let builds = summary.warnings.iter().filter(|w| w.contains("debug build")).count();
+    assert!(
+        !summary.warnings.iter().any(|w| w.to_string().contains("not finite")),
+        "said once: {:?}",
+        summary.warnings
+    );
+    let builds = summary.warnings.iter().filter(|w| w.to_string().contains("debug build")).count();
     assert_eq!(builds, usize::from(cfg!(debug_assertions)));
 }
 
@@ -83,7 +92,7 @@ fn a_violated_enclosure_is_the_first_warning() {
     let rows = "[[method]]\nid = \"blur\"\nset = { boast = true }\n";
     let summary = place.run(&with_rows(rows), &Watch::default()).unwrap();
     assert_eq!(violations(&summary).len(), 2);
-    assert!(summary.warnings[0].contains("claims never to leave"), "{:?}", summary.warnings);
+    assert!(summary.warnings[0].to_string().contains("claims never to leave"), "{:?}", summary.warnings);
     assert!(records(&place.out())[1].enclosures.iter().all(|e| !e.held && e.worst_ratio > 1.0));
     let honest =
         place.run_to(&place.root.path().join("honest"), &crate::common::small(), &Watch::default()).unwrap();
@@ -132,5 +141,5 @@ fn mistakes_in_a_study_file_are_told_with_file_and_line() {
     let text = crate::common::SMALL.replace("id = \"steps\"", "id = \"cornel\"");
     let text: String = text.lines().filter(|l| !l.starts_with("synthetic")).collect::<Vec<_>>().join("\n");
     let error = Study::from_toml(&text, Path::new("bad.toml")).unwrap_err();
-    assert!(matches!(error, HarnessError::Scene { .. }) && error.to_string().contains("cornell"), "{error}");
+    assert!(matches!(error, StudyError::Scene { .. }) && error.to_string().contains("cornell"), "{error}");
 }

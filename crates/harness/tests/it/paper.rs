@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use noisefloor_harness::summary::{PaperResult, Source};
-use noisefloor_harness::{HarnessError, PaperRatio, Study, reanalyse};
+use noisefloor_harness::reanalyse;
+use noisefloor_study::summary::{PaperResult, Source};
+use noisefloor_study::{PaperRatio, Study, StudyError};
 
 use crate::common::{Place, Watch, study};
 
@@ -66,7 +67,7 @@ source = "Fig. 7"
         let sd = (2.0f64 / (64.0 * 48.0 * 3.0 * 4.0) * (1.0 + 9.0)).sqrt();
         assert!((ours.value / truth() - 1.0).abs() < 5.0 * sd, "{} against {}", ours.value, truth());
         assert_eq!((ours.source, ours.n), (Source::Replicates, 4));
-        assert_eq!(result.verdict, "larger gain than the paper's");
+        assert_eq!(result.verdict.name(), "larger gain than the paper's");
         assert_eq!((result.paper, result.source.as_str(), &result.reason), ([0.5, 0.5], "Fig. 7", &None));
         assert_eq!(result.metric, "mse", "the primary metric unless another is named");
     }
@@ -101,10 +102,8 @@ paper = 1
 paper_by_scene = { one = [0.1, 0.2] }
 "#,
     );
-    let told: Vec<(&str, &str, u32, [f64; 2], &str)> = found
-        .iter()
-        .map(|r| (r.what.as_str(), r.scene.as_str(), r.spp, r.paper, r.verdict.as_str()))
-        .collect();
+    let told: Vec<(&str, &str, u32, [f64; 2], &str)> =
+        found.iter().map(|r| (r.what.as_str(), r.scene.as_str(), r.spp, r.paper, r.verdict.name())).collect();
     assert_eq!(
         told,
         [
@@ -129,8 +128,8 @@ fn one_replicate_has_an_interval_over_the_input_and_none_between_other_rows() {
     };
     let (_place, found) = run(1, &[compare("blur", "mc"), compare("mc", "blur")].concat());
     let of = |k: usize| found[k].ours.as_ref().unwrap().source;
-    assert_eq!((of(0), found[0].verdict.as_str()), (Source::WithinImage, "opposite sign"));
-    assert_eq!((of(1), found[1].verdict.as_str()), (Source::None, "undecided"));
+    assert_eq!((of(0), found[0].verdict.name()), (Source::WithinImage, "opposite sign"));
+    assert_eq!((of(1), found[1].verdict.name()), (Source::None, "undecided"));
 }
 
 #[test]
@@ -166,13 +165,13 @@ fn comparisons_that_make_no_sense_are_refused_with_their_line() {
         let text = text(2, &format!("[[compare]]\n{compare}"));
         let line = text.lines().position(|l| l == "[[compare]]").unwrap() + 1;
         let error = Study::from_toml(&text, Path::new("beside.toml")).unwrap_err();
-        assert!(matches!(error, HarnessError::Field { .. }), "{error}");
+        assert!(matches!(error, StudyError::Field { .. }), "{error}");
         let message = error.to_string();
         let start = format!("beside.toml, line {line}: compare[0].{field} is {value}; allowed: ");
         assert!(message.starts_with(&start) && message.contains(allowed), "{message}\nexpected {start}");
     }
     let unknown = text(2, &format!("[[compare]]\n{good}\nover_spp = 4"));
-    assert!(matches!(Study::from_toml(&unknown, Path::new("beside.toml")), Err(HarnessError::Syntax { .. })));
+    assert!(matches!(Study::from_toml(&unknown, Path::new("beside.toml")), Err(StudyError::Syntax { .. })));
 }
 
 #[test]

@@ -4,8 +4,10 @@ use std::path::Path;
 
 use crate::common::{Place, Watch, records, small, study};
 use noisefloor_frame::{Estimate, Frame};
-use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{MethodRow, Study, analysis_of};
+use noisefloor_harness::analysis_of;
+use noisefloor_harness::study_of_folder;
+use noisefloor_study::summary::Summary;
+use noisefloor_study::{MethodRow, Study};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
 const TWO_SCENES: &str = r#"
@@ -94,7 +96,7 @@ fn a_row_that_was_skipped_on_the_noisier_frame_is_never_the_best() {
         MethodRow::new("blur").label("wide").set("radius", 2),
         MethodRow::new("blur").label("choosy").set("halves", true),
     ];
-    let summary = place.run(&Study::for_folder(&folder, None, rows).unwrap(), &Watch::default()).unwrap();
+    let summary = place.run(&study_of_folder(&folder, None, rows).unwrap(), &Watch::default()).unwrap();
     let cell = |label: &str| summary.cells.iter().find(|c| c.label == label).unwrap();
     let choosy = cell("choosy");
     // Over the quiet frame alone its mean is below those of the others.
@@ -110,7 +112,8 @@ fn a_row_that_was_skipped_on_the_noisier_frame_is_never_the_best() {
         assert!(!comparison.best_group.contains(&"choosy".to_owned()));
         assert!(comparison.pairs.iter().all(|p| p.a != "choosy" && p.b != "choosy"));
     }
-    let warned = summary.warnings.iter().any(|w| w.contains("choosy on mixed at 16 spp is not ranked"));
+    let warned =
+        summary.warnings.iter().any(|w| w.to_string().contains("choosy on mixed at 16 spp is not ranked"));
     assert!(warned, "{:?}", summary.warnings);
     assert!(summary.slopes.iter().all(|slope| slope.label != "choosy"));
 }

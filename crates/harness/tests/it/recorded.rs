@@ -4,8 +4,8 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::common::{Place, Watch, small};
-use noisefloor_harness::record::Record;
 use noisefloor_harness::{HarnessError, analysis_of, record_study};
+use noisefloor_study::record::Record;
 
 fn reports() -> Vec<PathBuf> {
     let reports = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../reports");

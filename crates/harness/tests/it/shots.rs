@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use crate::common::{Place, Watch, records, study};
-use noisefloor_harness::{HarnessError, Maps, Shot, Study};
+use noisefloor_harness::HarnessError;
 use noisefloor_render::Integrator;
+use noisefloor_study::{Maps, Shot, Study, StudyError};
 
 /// A tiny study of one rendered scene.
 fn rendered(keys: &str) -> String {
@@ -34,7 +35,7 @@ fn intervals_are_counted_with_fixed_maps_and_void_with_fresh_ones() {
         place.run(&study(&rendered(&format!("{MAPPED}maps = \"fresh\""))), &Watch::default()).unwrap();
     assert!(fresh.coverage.is_empty());
     assert!(
-        fresh.warnings.iter().any(|w| w.contains("photon maps are new in each replicate")),
+        fresh.warnings.iter().any(|w| w.to_string().contains("photon maps are new in each replicate")),
         "{:?}",
         fresh.warnings
     );
@@ -45,14 +46,16 @@ fn intervals_are_counted_with_fixed_maps_and_void_with_fresh_ones() {
     let place = Place::new();
     let keys = "id = \"cornell\"\nphotons = { paths = 3000 }\nmaps = \"fresh\"";
     let traced = place.run(&study(&rendered(keys)), &Watch::default()).unwrap();
-    assert!(!traced.coverage.is_empty() && !traced.warnings.iter().any(|w| w.contains("photon maps")));
+    assert!(
+        !traced.coverage.is_empty() && !traced.warnings.iter().any(|w| w.to_string().contains("photon maps"))
+    );
     // Path tracing says nothing of maps.
     let place = Place::new();
     place.run(&study(&rendered("id = \"cornell\"")), &Watch::default()).unwrap();
     let text = std::fs::read_to_string(place.out().join("results.jsonl")).unwrap();
     assert!(!text.contains("photon_maps"));
     // The same random seeds, but other light.
-    let mse = |r: &[noisefloor_harness::record::Record]| r[0].metrics["mse"];
+    let mse = |r: &[noisefloor_study::record::Record]| r[0].metrics["mse"];
     assert_ne!(mse(&first), mse(&second));
 }
 
@@ -129,9 +132,9 @@ fn keys_that_do_not_belong_together_are_refused_with_their_line() {
 
 #[test]
 fn a_scene_by_name_makes_a_study() {
-    let rows = || vec![noisefloor_harness::MethodRow::new("mc")];
+    let rows = || vec![noisefloor_study::MethodRow::new("mc")];
     let shot = Shot { integrator: Integrator::PhotonMapping, maps: Maps::Fresh, ..Shot::default() };
     let study = Study::for_scene("rings", shot, rows()).unwrap();
     assert_eq!((study.name.as_str(), study.scenes[0].shot), ("scene-rings", shot));
-    assert!(matches!(Study::for_scene("ringz", shot, rows()), Err(HarnessError::Scene { .. })));
+    assert!(matches!(Study::for_scene("ringz", shot, rows()), Err(StudyError::Scene { .. })));
 }

@@ -1,6 +1,7 @@
 //! How large scenes are, and what a study is asked for.
 
-use noisefloor_harness::{Study, StudyRun, run};
+use noisefloor_harness::{StudyRun, run};
+use noisefloor_study::Study;
 
 use crate::common::{Place, Watch, study};
 

@@ -1,7 +1,8 @@
 //! What the numbers must show where the truth is exact.
 
-use noisefloor_harness::summary::{Source, Summary};
-use noisefloor_harness::{Study, reanalyse};
+use noisefloor_harness::reanalyse;
+use noisefloor_study::Study;
+use noisefloor_study::summary::{Source, Summary};
 
 use crate::common::{Place, Watch, records, study};
 
@@ -53,13 +54,14 @@ fn the_bound_of_a_guarded_method_holds_for_normal_samples() {
     assert_eq!(bounds.len(), 3);
     for bound in bounds {
         assert!(bound.proven && bound.violations.high.unwrap() <= bound.alpha, "{bound:?}");
-        assert_eq!(bound.verdict, "holds");
+        assert_eq!(bound.verdict.name(), "holds");
     }
     for cell in summary.cells.iter().filter(|c| c.label == "guarded(blur)") {
         assert!(cell.enclosure_worst_ratio.unwrap() <= 1.0);
     }
     // What an unoptimised build says of its times is no warning about bounds.
-    let about_numbers: Vec<_> = summary.warnings.iter().filter(|w| !w.contains("debug build")).collect();
+    let about_numbers: Vec<_> =
+        summary.warnings.iter().filter(|w| !w.to_string().contains("debug build")).collect();
     assert!(about_numbers.is_empty(), "{about_numbers:?}");
 }
 
@@ -72,7 +74,7 @@ fn rare_events_break_coverage_and_the_bound_and_are_counted_apart() {
     assert!(wide.covered.high.unwrap() < 0.5, "{:?}", wide.covered);
     assert!((wide.missed - missed).abs() < 0.01, "{} against {missed}", wide.missed);
     let bound = summary.bounds.iter().find(|b| b.class == "all").unwrap();
-    assert_eq!(bound.verdict, "fails", "{bound:?}");
+    assert_eq!(bound.verdict.name(), "fails", "{bound:?}");
     assert!(bound.missed > 0.5);
 }
 
@@ -85,7 +87,7 @@ fn plain_monte_carlo_falls_like_one_over_n_and_needs_itself_once() {
     for (metric, expected) in [("mse", -1.0), ("rmse", -0.5), ("relmse", -1.0)] {
         let found = slope("mc", metric);
         assert!((found.slope.value - expected).abs() < 0.05, "{metric}: {:?}", found.slope);
-        assert_eq!(found.verdict, "consistent", "{}", found.sentence);
+        assert_eq!(found.verdict.name(), "consistent", "{}", found.sentence);
     }
     for cell in summary.cells.iter().filter(|c| c.label == "mc") {
         assert!((cell.equal_error["mse"].value - 1.0).abs() < 0.1, "{:?}", cell.equal_error["mse"]);
@@ -136,7 +138,12 @@ fn dependent_samples_void_coverage_and_bounds_and_the_summary_says_so() {
     let summary = place.run(&study, &Watch::default()).unwrap();
     assert!(summary.coverage.is_empty() && summary.bounds.is_empty());
     assert!(summary.cells.iter().all(|cell| cell.equal_error.is_empty()));
-    assert!(summary.warnings.iter().any(|w| w.contains("left out") && w.contains("low-discrepancy")));
+    assert!(
+        summary
+            .warnings
+            .iter()
+            .any(|w| w.to_string().contains("left out") && w.to_string().contains("low-discrepancy"))
+    );
     // The certain half compares the output with its own input: it is checked all the same.
     assert!(summary.cells.iter().any(|c| c.enclosure_worst_ratio.is_some_and(|r| r <= 1.0)));
 }
@@ -166,7 +173,11 @@ fn a_short_reference_is_marked() {
         (reference.spp, reference.parts, reference.ratio_to_top, reference.long_enough),
         (64, 8, 8.0, false)
     );
-    assert!(summary.warnings.iter().any(|w| w.contains("only 8 times")), "{:?}", summary.warnings);
+    assert!(
+        summary.warnings.iter().any(|w| w.to_string().contains("only 8 times")),
+        "{:?}",
+        summary.warnings
+    );
     let marks: Vec<(u32, bool)> =
         summary.coverage.iter().filter(|c| c.class == "all").map(|c| (c.spp, c.mark.is_some())).collect();
     assert!(marks.iter().all(|(spp, marked)| *marked == (*spp == 8)), "{marks:?}");

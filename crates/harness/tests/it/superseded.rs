@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use noisefloor_denoiser::{Denoiser, Input, MethodCard, NoParams, Output, Registry, mc, method};
-use noisefloor_harness::record::Record;
-use noisefloor_harness::{HarnessError, Study, StudyRun, reanalyse, run};
+use noisefloor_harness::{HarnessError, StudyRun, reanalyse, run};
+use noisefloor_study::Study;
+use noisefloor_study::record::Record;
 
 use crate::common::{Place, SMALL, Watch, records, small, study, superseded, timeless};
 
@@ -47,7 +48,10 @@ fn a_study_that_goes_back_finds_every_cell_and_image_as_it_was() {
         place.run(&study, &watch).unwrap();
         assert_eq!((watch.cells(), &lines(&place.out())), (0, text));
         assert!(
-            watch.warnings().iter().any(|w| w.contains("4 records that were set aside are in use again"))
+            watch
+                .warnings()
+                .iter()
+                .any(|w| w.to_string().contains("4 records that were set aside are in use again"))
         );
     }
     assert_eq!(superseded(&place.out()).len(), 8);
@@ -208,7 +212,7 @@ fn a_report_says_when_rows_come_from_several_builds_and_a_run_keeps_them() {
     let first = records(&place.out()).remove(0);
     assert_eq!(first.build.len(), 16);
     let summary = reanalyse(&place.out(), false).unwrap();
-    assert!(!summary.warnings.iter().any(|w| w.contains("builds")), "{:?}", summary.warnings);
+    assert!(!summary.warnings.iter().any(|w| w.to_string().contains("builds")), "{:?}", summary.warnings);
     // The baseline's cells by another executable.
     let text: Vec<String> = lines(&place.out())
         .lines()
@@ -227,8 +231,9 @@ fn a_report_says_when_rows_come_from_several_builds_and_a_run_keeps_them() {
     let told = summary
         .warnings
         .iter()
-        .find(|w| w.contains("2 builds"))
-        .unwrap_or_else(|| panic!("{:?}", summary.warnings));
+        .find(|w| w.to_string().contains("2 builds"))
+        .unwrap_or_else(|| panic!("{:?}", summary.warnings))
+        .to_string();
     assert!(
         told.contains("fedcba9876543210 (mc)") && told.contains(&format!("{} (blur)", first.build)),
         "{told}"
