@@ -1,10 +1,12 @@
 //! Every built-in scene, all the way through.
 
-use noisefloor::harness::{MethodRow, Shot, Silent, Study, StudyRun, run, violations};
+use noisefloor::harness::{Silent, StudyRun, run};
+use noisefloor::questions::violations;
 use noisefloor::render::{
     Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderRequest, Silent as Quiet, render,
 };
 use noisefloor::scenes::builtin;
+use noisefloor::study::{MethodRow, Shot, Study};
 
 #[test]
 fn every_scene_can_be_studied_by_its_name() {

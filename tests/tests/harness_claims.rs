@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use noisefloor::harness::summary::Summary;
-use noisefloor::harness::{Silent, Study, StudyRun, builtin_studies, run, violations};
+use noisefloor::harness::{Silent, StudyRun, run};
+use noisefloor::questions::violations;
+use noisefloor::study::summary::Summary;
+use noisefloor::study::{Study, builtin_studies};
 
 fn run_study(text: &str) -> (tempfile::TempDir, Summary) {
     let folder = tempfile::tempdir().unwrap();

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 use noisefloor_denoiser::BuildError;
 use noisefloor_harness::HarnessError;
 use noisefloor_scenes::UnknownScene;
+use noisefloor_study::StudyError;
 
 /// How a verb ended. The numbers are a contract with scripts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -59,10 +60,8 @@ impl Exit {
         // Names on the command line that nothing has; in a study file they are an error of the file.
         let unknown = error.is::<BuildError>()
             || error.is::<UnknownScene>()
-            || matches!(
-                error.downcast_ref(),
-                Some(HarnessError::UnknownStudy { .. } | HarnessError::NoRow { .. })
-            );
+            || matches!(error.downcast_ref(), Some(StudyError::UnknownStudy { .. }))
+            || matches!(error.downcast_ref(), Some(HarnessError::NoRow { .. }));
         if unknown { Self::Usage } else { Self::Failed }
     }
 }

@@ -52,7 +52,7 @@ fn options(way: &[Setting]) -> String {
 /// Takes back what was made up: plain Monte Carlo gives what was read, no number included; for other methods what was
 /// filled in beyond small holes is no part of the image.
 pub fn as_read(method: &str, image: &mut Image, hygiene: &Hygiene) {
-    if method == noisefloor_harness::BASELINE {
+    if method == noisefloor_study::BASELINE {
         hygiene.restore(image);
     } else {
         hygiene.mark_absent(image);

@@ -9,7 +9,7 @@ use anyhow::bail;
 use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
-use noisefloor_harness::{Maps, Shot};
+use noisefloor_study::{Maps, Shot};
 use noisefloor_render::{
     FeatureHit, Keep, PhotonMaps, Prepared, Purpose, Quantity, Record, RenderRequest, available,
     sequence_seed, usual_seed,

@@ -4,7 +4,7 @@ use std::io::ErrorKind;
 
 use anyhow::{anyhow, bail};
 use noisefloor_harness::HarnessError;
-use noisefloor_harness::summary::Summary;
+use noisefloor_study::summary::Summary;
 use noisefloor_io::IoError;
 use noisefloor_report::ReportOptions;
 

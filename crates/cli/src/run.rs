@@ -6,10 +6,11 @@ mod watch;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use noisefloor_harness::summary::Summary;
-use noisefloor_harness::{Maps, MethodRow, Study, StudyRun, memory_estimate};
+use noisefloor_study::summary::Summary;
+use noisefloor_harness::{StudyRun, memory_estimate, study_of_folder};
 use noisefloor_io::{ReadOptions, read_frame, scan_scenes};
 use noisefloor_report::ReportFiles;
+use noisefloor_study::{Maps, MethodRow, Study};
 
 use crate::args::Run;
 use crate::context::{Context, default_cache, use_threads};
@@ -82,7 +83,7 @@ fn plural(count: usize, word: &str) -> String {
 
 /// The certain half of a proven bound is an invariant: if it broke, the run has failed whatever else it shows.
 fn fail_on_violations(summary: &Summary) -> anyhow::Result<()> {
-    let violations = noisefloor_harness::violations(summary);
+    let violations = noisefloor_questions::violations(summary);
     if violations.is_empty() {
         return Ok(());
     }
@@ -109,7 +110,7 @@ fn find_study(context: &Context, args: &Run) -> anyhow::Result<(Study, Kind)> {
     } else if kind == Kind::Folder {
         check_options(args, kind, name)?;
         folder_rows(context, path, args)
-            .and_then(|rows| Ok(Study::for_folder(path, args.spp, rows)?))
+            .and_then(|rows| Ok(study_of_folder(path, args.spp, rows)?))
             .with_context(|| format!("reading the frames in {}", path.display()))?
     } else if path.is_file() {
         Study::from_file(path)?

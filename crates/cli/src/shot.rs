@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor_harness::{Maps, Shot};
+use noisefloor_study::{Maps, Shot};
 use noisefloor_render::{Integrator, PhotonSettings};
 
 use crate::args;

@@ -1,6 +1,6 @@
 //! Plain text tables, columns aligned by character count.
 
-use noisefloor_harness::summary::{CellSummary, Interval, PaperResult, SceneSummary, Summary};
+use noisefloor_study::summary::{CellSummary, Interval, PaperResult, SceneSummary, Status, Summary};
 
 /// The short table that ends a run: the primary metric of every row at the top level of every scene.
 pub fn summary_table(summary: &Summary) -> String {
@@ -56,7 +56,7 @@ pub fn summary_table(summary: &Summary) -> String {
         .skipped
         .iter()
         // Failures are told above.
-        .filter(|s| s.status != "failed")
+        .filter(|s| s.status != Status::Failed)
         .map(|s| format!("{} {} on {}: {}", s.status, s.label, s.scene, s.reason))
         .collect();
     if !skipped.is_empty() {
@@ -73,7 +73,7 @@ pub fn unfinished(summary: &Summary) -> Option<String> {
 
 /// `9 rows failed; the first: …`, if any did.
 pub fn failed(summary: &Summary) -> Option<String> {
-    let mut failed = summary.skipped.iter().filter(|entry| entry.status == "failed");
+    let mut failed = summary.skipped.iter().filter(|entry| entry.status == Status::Failed);
     let first = failed.next()?;
     let rows = match failed.count() {
         0 => "a row".to_owned(),
@@ -96,9 +96,8 @@ fn reference(scene: &SceneSummary) -> String {
 /// Why a row has no numbers at the levels shown.
 fn why_absent(summary: &Summary, scene: &SceneSummary, label: &str) -> &'static str {
     let ended = summary.skipped.iter().find(|s| s.scene == scene.id && s.label == label);
-    match ended.map(|s| s.status.as_str()) {
-        Some("failed") => "failed",
-        Some(_) => "skipped",
+    match ended.map(|s| s.status) {
+        Some(status) => status.name(),
         None => "did not run",
     }
 }
@@ -133,7 +132,7 @@ fn ratio_with_interval(interval: &Interval) -> String {
 }
 
 fn words(r: &PaperResult) -> String {
-    r.reason.as_ref().map_or_else(|| r.verdict.clone(), |reason| format!("{}: {reason}", r.verdict))
+    r.reason.as_ref().map_or_else(|| r.verdict.to_string(), |reason| format!("{}: {reason}", r.verdict))
 }
 
 fn with_interval(interval: &Interval) -> String {
@@ -192,6 +191,8 @@ pub fn number(value: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use noisefloor_study::summary::Agreement;
+
     use super::*;
 
     #[test]
@@ -216,17 +217,17 @@ mod tests {
                 high: Some(0.5),
                 confidence: 0.95,
                 n: 4,
-                source: noisefloor_harness::summary::Source::Replicates,
+                source: noisefloor_study::summary::Source::Replicates,
                 below: None,
             }),
             paper: [0.3, 0.3],
             source: "Fig. 7".into(),
-            verdict: "agrees".into(),
+            verdict: Agreement::Agrees,
             reason: None,
         };
         assert_eq!((ratio(&result).as_str(), words(&result).as_str()), ("0.2500 [0.1250, 0.5000]", "agrees"));
         result.ours = None;
-        result.verdict = "no number".into();
+        result.verdict = Agreement::NoNumber;
         result.reason = Some("`b` did not run here".into());
         assert_eq!(
             (ratio(&result).as_str(), words(&result).as_str()),
@@ -243,7 +244,7 @@ mod tests {
             high: Some(high),
             confidence: 0.95,
             n: 4,
-            source: noisefloor_harness::summary::Source::Replicates,
+            source: noisefloor_study::summary::Source::Replicates,
             below: None,
         };
         assert_eq!(ratio_with_interval(&interval(0.38, 0.1, 1.4)), "0.3800 [0.1000, 1.400]");

@@ -44,7 +44,7 @@ pub use noisefloor_frame::{
 /// Reading and writing frames as OpenEXR.
 pub use noisefloor_io as io;
 
-/// Study files, runs and their analysis.
+/// Runs of studies.
 pub use noisefloor_harness as harness;
 
 /// Inputs held against each other.
@@ -52,6 +52,9 @@ pub use noisefloor_inputs as inputs;
 
 /// Image metrics.
 pub use noisefloor_metrics as metrics;
+
+/// What is asked of the data: measuring, analysis, exhibits.
+pub use noisefloor_questions as questions;
 
 /// The built-in methods.
 pub use noisefloor_registry as registry;
@@ -67,6 +70,9 @@ pub use noisefloor_scenes as scenes;
 
 /// Intervals, coverage, bounds, slopes.
 pub use noisefloor_stats as stats;
+
+/// Studies as plain data: files, plans, records, summaries, exhibits.
+pub use noisefloor_study as study;
 
 /// Frames with known truth.
 pub use noisefloor_synthetic as synthetic;

@@ -11,7 +11,10 @@ fn the_methodology_has_every_questions_paragraph_word_for_word() {
     for question in QUESTIONS {
         let id = question.id();
         let paragraph = question.methodology();
-        assert!(paragraph.starts_with("## ") && paragraph.len() > 200, "`{id}` does not say how it is answered");
+        assert!(
+            paragraph.starts_with("## ") && paragraph.len() > 200,
+            "`{id}` does not say how it is answered"
+        );
         let block = format!("<!-- question {id} -->\n{paragraph}<!-- /question -->\n");
         assert!(text.contains(&block), "put this into METHODOLOGY.md for `{id}`:\n{block}");
     }

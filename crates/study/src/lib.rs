@@ -16,6 +16,7 @@ pub mod files;
 pub mod format;
 mod key;
 pub mod metric;
+mod names;
 mod over_time;
 pub mod plan;
 pub mod record;
@@ -25,6 +26,7 @@ pub mod summary;
 pub use bits::{Bits, hash_of_frame};
 pub use error::{Place, StudyError};
 pub use key::{Key, key_of, seed_of};
+pub use names::BASELINE;
 pub use over_time::{Corrected, Flicker, OverTime};
 pub use study::{
     AdaptiveFrames, BuiltinStudy, FIGURES, Family, LONGEST_NAME, MethodRow, PaperComparison, PaperRatio,
@@ -32,15 +34,3 @@ pub use study::{
 };
 
 pub use noisefloor_frame::Maps;
-
-/// The id of the baseline: the input itself.
-pub const BASELINE: &str = "mc";
-
-/// The three names closest to `given`, closest first.
-fn nearest<'a>(given: &str, names: impl Iterator<Item = &'a str>) -> Vec<String> {
-    // The time that a comparison takes grows with the product of both lengths.
-    let given = given.char_indices().nth(100).map_or(given, |(end, _)| &given[..end]);
-    let mut ranked: Vec<(f64, &str)> = names.map(|n| (strsim::jaro_winkler(given, n), n)).collect();
-    ranked.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(b.1)));
-    ranked.into_iter().take(3).map(|(_, n)| n.to_owned()).collect()
-}

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor_harness::{SceneSource, Study};
+use noisefloor_study::{SceneSource, Study};
 use noisefloor_io::same_file;
 
 use crate::args::Run;

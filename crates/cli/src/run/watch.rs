@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use noisefloor_harness::record::{Outcome, Record};
+use noisefloor_study::record::{Outcome, Record};
 use noisefloor_harness::{HarnessError, Observer, Stage, Workload};
 
 use crate::exit::{interrupted, told};

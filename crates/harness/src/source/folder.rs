@@ -9,7 +9,8 @@ use noisefloor_io::{FileInfo, FrameFile, FrameFolder, ReadOptions, read_checked_
 use serde_json::json;
 
 use crate::error::HarnessError;
-use crate::source::{FrameKind, FrameSpec, Scene, Source};
+use crate::source::frame::{FrameKind, FrameSpec};
+use crate::source::opened::Opened;
 use crate::store::hash_of;
 use noisefloor_study::SceneSpec;
 use noisefloor_study::{Key, key_of};
@@ -21,7 +22,7 @@ pub(super) struct Imported {
     options: ReadOptions,
 }
 
-pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError> {
+pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<(Opened, Imported), HarnessError> {
     // A single level in the study file also says what the files themselves do not.
     let options = ReadOptions {
         spp: spec.spp.as_deref().and_then(|levels| <[u32; 1]>::try_from(levels).ok()).map(|[n]| n),
@@ -65,7 +66,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         }
     }
     let scene_name = provenance.scene.clone().unwrap_or_else(|| folder.name());
-    Ok(Scene {
+    let opened = Opened {
         id: spec.id.clone(),
         title: scene_name,
         about: match &provenance.renderer {
@@ -83,11 +84,9 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<Scene, HarnessError>
         reference_key: file_key(&folder.reference, info, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
         reference_sampling: info.sampling.name().to_owned(),
-        rows: Vec::new(),
         equal_time_spp: None,
-        beside: BTreeMap::new(),
-        source: Source::Imported(Imported { files, reference: folder.reference.clone(), options }),
-    })
+    };
+    Ok((opened, Imported { files, reference: folder.reference.clone(), options }))
 }
 
 /// Names of all layers that some frame has.

@@ -1,17 +1,17 @@
 //! Scenes that are rendered here.
 
 mod adaptive;
+mod progress;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::ops::ControlFlow;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
 use noisefloor_frame::{Estimate, Frame, PixelFilter, Reference, Sampling};
 use noisefloor_render::{
     FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Record,
-    RenderError, RenderRequest, render,
+    RenderRequest, render,
 };
 use serde_json::{Value, json};
 
@@ -19,7 +19,9 @@ use crate::cache::{Cache, Lookup};
 use crate::error::HarnessError;
 use crate::observer::{Observer, Silent, Stage};
 use crate::row::Row;
-use crate::source::{FrameKind, FrameSpec, Scene, Source, frame_seed, frame_specs};
+use crate::source::frame::{FrameKind, FrameSpec, frame_seed, frame_specs};
+use crate::source::opened::Opened;
+use crate::source::probe::{PROBE, PROBE_SPP};
 use noisefloor_questions::PixelClasses;
 use noisefloor_study::plan::ReferenceRange;
 use noisefloor_study::{
@@ -27,6 +29,7 @@ use noisefloor_study::{
 };
 use noisefloor_study::{Bits, hash_of_frame};
 use noisefloor_study::{Key, key_of, seed_of};
+use progress::{advance, stopped};
 
 /// A scene with everything that all its frames have in common.
 pub(super) struct Rendered {
@@ -86,7 +89,7 @@ pub(super) fn open(
     spec: &SceneSpec,
     size: Option<(usize, usize)>,
     recorded: &BTreeMap<Quantity, Keep>,
-) -> Result<Scene, HarnessError> {
+) -> Result<(Opened, Rendered), HarnessError> {
     let shot = spec.shot;
     let (scene, about, notices) = build(study, spec)?;
     let name = scene.id.to_string();
@@ -192,7 +195,7 @@ pub(super) fn open(
         settings.push(("left out of the file", notices.join("; ")));
     }
     let settings = settings.into_iter().map(|(name, value)| (name.to_owned(), value)).collect();
-    Ok(Scene {
+    let opened = Opened {
         id: spec.id.clone(),
         title: scene.title.to_string(),
         about,
@@ -207,30 +210,29 @@ pub(super) fn open(
         reference_key,
         reference_spp: u64::from(reference.spp),
         reference_sampling: reference.sampling.name().to_owned(),
-        rows: Vec::new(),
         equal_time_spp: spec.equal_time_spp,
-        beside: BTreeMap::new(),
-        source: Source::Rendered(Box::new(Rendered {
-            prepared,
-            width,
-            height,
-            depth: study.depth,
-            filter: study.filter,
-            feature_hit: study.feature_hit,
-            sampling: study.sampling,
-            record,
-            reference,
-            parts,
-            shot,
-            map_seed,
-            shared: OnceLock::new(),
-            sample,
-            in_rounds: Mutex::default(),
-            look: noisy,
-            identity,
-            study_seed: study.seed,
-        })),
-    })
+    };
+    let rendered = Rendered {
+        prepared,
+        width,
+        height,
+        depth: study.depth,
+        filter: study.filter,
+        feature_hit: study.feature_hit,
+        sampling: study.sampling,
+        record,
+        reference,
+        parts,
+        shot,
+        map_seed,
+        shared: OnceLock::new(),
+        sample,
+        in_rounds: Mutex::default(),
+        look: noisy,
+        identity,
+        study_seed: study.seed,
+    };
+    Ok((opened, rendered))
 }
 
 /// Everything that determines a frame.
@@ -240,13 +242,6 @@ fn frame_identity(look: &Value, record: &BTreeMap<Quantity, Keep>, spp: u32, see
         "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
     })
 }
-
-/// Size of the tiny frames whose bits stand for the renderer in keys: they change whenever it gives other numbers, in
-/// any plane that a frame carries, so that nobody has to remember to raise a version.
-pub(super) const PROBE: [usize; 2] = [24, 18];
-
-/// Their samples per pixel: more than two of the blocks that are merged into one.
-pub(super) const PROBE_SPP: u32 = 33;
 
 /// Hash of which pixels of a tiny image are of the scene's own classes.
 fn classes_of_probe(prepared: &Prepared) -> Result<Key, HarnessError> {
@@ -462,18 +457,4 @@ fn rendered(request: &RenderRequest<'_>, observer: &dyn Observer) -> Result<Fram
     frame.provenance.render_seconds.get_or_insert(seconds);
     frame.provenance.render_threads.get_or_insert(rayon::current_num_threads() as u32);
     Ok(frame)
-}
-
-/// Tells of samples that are done; whether to go on.
-fn advance(observer: &dyn Observer, samples: u64) -> ControlFlow<()> {
-    observer.rendered(samples);
-    if observer.cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-}
-
-/// A render error as the harness tells it.
-fn stopped(error: RenderError) -> HarnessError {
-    match error {
-        RenderError::Cancelled => HarnessError::Cancelled,
-        other => other.into(),
-    }
 }

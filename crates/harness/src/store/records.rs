@@ -3,7 +3,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use crate::error::HarnessError;
-use crate::store::{append_lines, write_whole};
+use crate::store::write::{append_lines, write_whole};
 use noisefloor_study::record::{RECORD_SCHEMA, Record};
 
 /// `results.jsonl`: whole lines, appended and brought to disk one by one.

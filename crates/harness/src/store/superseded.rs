@@ -2,8 +2,8 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::error::HarnessError;
-use crate::store::append_lines;
 use crate::store::records::{Records, line_of};
+use crate::store::write::append_lines;
 use noisefloor_study::record::Record;
 
 /// `results.superseded.jsonl`: records that the study, a method or the metrics of the moment have no use for. Nothing is

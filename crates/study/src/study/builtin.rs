@@ -1,7 +1,7 @@
 use std::path::Path;
 
 use crate::error::StudyError;
-use crate::nearest;
+use crate::names::nearest;
 use crate::study::Study;
 
 /// A study that comes with the program.

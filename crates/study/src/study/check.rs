@@ -1,51 +1,23 @@
 //! What a study must obey beyond its grammar.
 
+mod compare;
+mod frames;
+mod limits;
+mod sequence;
+
 use std::collections::BTreeSet;
 
 use noisefloor_frame::{Reference, Sampling};
 
-use crate::error::{Place, StudyError};
-use crate::study::compare::check_comparisons;
-use crate::study::frames::check_frames;
-use crate::study::limits::{
-    LONGEST_LOW_DISCREPANCY, LONGEST_NAME, MOST_PER_PART, MOST_REPLICATES, bad_replicates, check_limits,
-};
-use crate::study::sequence::check_sequences;
-use crate::study::{FIGURES, SceneSource, SceneSpec, Study};
-
-/// Where each part of a study stands in its file.
-#[derive(Debug, Default)]
-pub(super) struct Lines<'a> {
-    /// File, or the name of a study that came from no file.
-    pub file: String,
-    /// Its text; empty if it came from no file.
-    pub text: &'a str,
-    /// Lines of the scene tables.
-    pub scenes: Vec<usize>,
-    /// Lines of the comparisons with the source work.
-    pub compare: Vec<usize>,
-}
-
-impl Lines<'_> {
-    pub(super) fn place(&self, line: Option<usize>) -> Place {
-        Place { file: self.file.clone(), line }
-    }
-
-    /// The line where a table begins, in either notation.
-    fn of_table(&self, name: &str) -> Option<usize> {
-        let header = format!("[{name}]");
-        let found = self.text.lines().position(|line| line.trim() == header).map(|index| index + 1);
-        found.or_else(|| self.of_key(name))
-    }
-
-    /// The first line that sets this key.
-    pub(super) fn of_key(&self, key: &str) -> Option<usize> {
-        let sets = |line: &str| {
-            line.trim_start().strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='))
-        };
-        self.text.lines().position(sets).map(|index| index + 1)
-    }
-}
+use crate::error::StudyError;
+use crate::metric;
+use crate::study::limits::{LONGEST_LOW_DISCREPANCY, MOST_PER_PART, MOST_REPLICATES};
+use crate::study::lines::{Lines, quoted};
+use crate::study::model::{FIGURES, SceneSource, SceneSpec, Study};
+use compare::check_comparisons;
+use frames::check_frames;
+use limits::{bad_replicates, check_limits};
+use sequence::check_sequences;
 
 impl Study {
     /// Refuses values without meaning; `file` is named in messages.
@@ -102,15 +74,15 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), StudyError> 
     if let Some(bad) = study.probe.iter().flatten().find(|v| !(0.0..=1.0).contains(*v)) {
         return wrong("probe", key("probe"), bad.to_string(), "fractions of the image's size, 0 to 1");
     }
-    let known = crate::metric::ids();
+    let known = metric::ids();
     for id in &study.metrics {
         if !known.contains(id) {
             return wrong("metrics", key("metrics"), quoted(id), &known.join(", "));
         }
     }
-    if !study.metrics.contains(&study.primary_metric) || !crate::metric::ranks(&study.primary_metric) {
+    if !study.metrics.contains(&study.primary_metric) || !metric::ranks(&study.primary_metric) {
         let ranking: Vec<&str> =
-            study.metrics.iter().map(String::as_str).filter(|id| crate::metric::ranks(id)).collect();
+            study.metrics.iter().map(String::as_str).filter(|id| metric::ranks(id)).collect();
         let listed = match ranking.as_slice() {
             [] => "a metric that ranks rows, which `metrics` has none of".to_owned(),
             some => some.join(", "),
@@ -240,12 +212,4 @@ fn levels_problem(levels: &[u32]) -> Option<&'static str> {
         return Some("numbers from 1 to 1048576");
     }
     (!levels.is_sorted_by(|a, b| a < b)).then_some("ascending numbers without repetition")
-}
-
-/// For messages; of a long text its beginning.
-pub(super) fn quoted(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_NAME) {
-        Some((end, _)) => format!("`{}…`", &text[..end]),
-        None => format!("`{text}`"),
-    }
 }

@@ -1,6 +1,7 @@
 use std::path::Path;
 
 use crate::error::{Place, StudyError};
+use crate::study::limits::LONGEST_NAME;
 use crate::study::{MethodRow, Replicates, SceneSource, SceneSpec, Shot, Study};
 
 impl Study {
@@ -15,7 +16,7 @@ impl Study {
         let (id, source, about) = if path.is_file() {
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             let named = |c: char| if c.is_ascii_alphanumeric() || "-_".contains(c) { c } else { '-' };
-            let id: String = stem.chars().take(crate::study::limits::LONGEST_NAME - 40).map(named).collect();
+            let id: String = stem.chars().take(LONGEST_NAME - 40).map(named).collect();
             (id, SceneSource::Gltf(path.to_owned()), "a scene from a file".to_owned())
         } else {
             let entry = noisefloor_scenes::find(name).map_err(|source| StudyError::Scene {

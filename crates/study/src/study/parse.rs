@@ -8,8 +8,9 @@ use serde_json::{Map, Value};
 use toml::Spanned;
 
 use crate::error::{Place, StudyError};
-use crate::study::check::{Lines, check};
+use crate::study::check::check;
 use crate::study::compare::RawCompare;
+use crate::study::lines::Lines;
 use crate::study::{
     AdaptiveFrames, Family, MethodRow, ReferenceSpec, Replicates, RowFrames, SceneSource, SceneSpec, Shot,
     Study, Timing,

@@ -1,7 +1,7 @@
 use noisefloor_denoiser::{MethodCard, Need, Registry, Role};
 use serde_json::Map;
 
-use crate::BASELINE;
+use crate::names::BASELINE;
 use crate::study::MethodRow;
 
 impl MethodRow {

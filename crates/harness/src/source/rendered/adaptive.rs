@@ -7,7 +7,7 @@ use noisefloor_denoiser::{Adaptive, Input};
 use noisefloor_frame::{Frame, Rounds as RoundsTold};
 use noisefloor_render::{RenderRequest, Rounds, allocate};
 
-use super::{advance, stopped};
+use super::progress::{advance, stopped};
 use crate::error::HarnessError;
 use crate::observer::Observer;
 use noisefloor_study::AdaptiveFrames;
