@@ -164,8 +164,13 @@ fn arrows_inside_crates_go_down_only() {
         }
         let found = circle(&arrows);
         if !found.is_empty() {
-            let names: Vec<String> = found.iter().map(|file| file.join("::")).collect();
-            wrong.push(format!("{}: {}", source.display(), names.join(", ")));
+            let name = |file: &[String]| if file.is_empty() { "lib".to_owned() } else { file.join("::") };
+            let inside = |file: &Vec<String>| -> Vec<String> {
+                let near = arrows[file].iter().filter(|near| found.contains(near));
+                near.map(|near| format!("  {} uses {}", name(file), name(near))).collect()
+            };
+            let lines: Vec<String> = found.iter().flat_map(inside).collect();
+            wrong.push(format!("{}:\n{}", source.display(), lines.join("\n")));
         }
     }
     assert!(looked > 500, "only {looked} arrows: the files are not read as they are written");
