@@ -86,7 +86,7 @@ impl PatchWeights {
     }
 }
 
-/// Which neighbours q may contribute to pixel p. A pixel always belongs to its own set.
+/// Which neighbours q may contribute to pixel p (moon2013flash, Eq. 2). A pixel always belongs to its own set.
 ///
 /// The half-widths are confidence-interval half-widths t·s_p/√n_p at the *centre* pixel p: at least 0, and
 /// infinity lets every neighbour pass. A neighbour passes a test on the values v if
