@@ -1,4 +1,4 @@
-//! Parameters and input planes of the engine, and the check that both make sense.
+//! Parameters and input planes of the engine, and the check that both make sense. All limits are ours.
 
 use super::NlmError;
 use super::naive::EPSILON;
