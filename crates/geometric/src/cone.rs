@@ -1,4 +1,5 @@
-//! The filter: Σ w·u / Σ w over the neighbours closer than R, weight 1 − distance/R.
+//! The filter: Σ w·u / Σ w over the neighbours closer than R, weight 1 − distance/R (Listing, line 1, line 2, line 4 and lines
+//! 11-15, mended).
 //!
 //! Pixel by pixel, the window row by row; rows add to sums per column of the window (`row.rs`), and these to each other in
 //! `f64`. Both orders are fixed, so the bits depend neither on threads nor on the instruction set. Image rows are padded, so
@@ -16,7 +17,7 @@ mod tests;
 
 use row::{Columns, LANES, Own, PLANES, Strip, TOGETHER};
 
-/// Rows that one thread takes at a time: enough that their windows overlap.
+/// Rows that one thread takes at a time: enough that their windows overlap; ours, for speed.
 const BAND: usize = 8;
 
 /// An image to filter, with everything that the weights depend on.
@@ -81,7 +82,7 @@ impl<'a> Cone<'a> {
         Self { width, height, radii, thresholds, lengths, stride, margin, planes, albedo }
     }
 
-    /// The filtered image.
+    /// The filtered image: Listing, line 1.
     pub fn filter(&self) -> Image {
         self.filter_at(Level::best())
     }
@@ -132,6 +133,7 @@ impl<'a> Cone<'a> {
         if reach == 0 {
             return;
         }
+        // Listing, line 4.
         for qy in y.saturating_sub(reach)..(y + reach + 1).min(self.height) {
             let start = qy * self.stride + self.margin + x - reach;
             strip.load(&self.planes, start, reach);
@@ -171,7 +173,8 @@ struct Pixel {
 }
 
 impl Pixel {
-    /// The pixel itself counts with weight 1, whatever its features say.
+    /// The pixel itself counts with weight 1, whatever its features say: Listing, line 2, and in the sum of weights too, so that
+    /// Listing, line 14 has nothing to guard, and Listing, line 15.
     #[inline(always)]
     fn mean(&self) -> [f32; 3] {
         if self.reach == 0 {

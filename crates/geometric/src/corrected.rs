@@ -6,9 +6,8 @@ use noisefloor_denoiser::{
 };
 use noisefloor_frame::{FeatureId, Image};
 
-use crate::cone::{Cone, Thresholds};
-use crate::guides::{Guides, Tests};
-use crate::{CITATION, CorrectedParams, FloorUnit, Material, Spread, radius};
+use crate::guides::Tests;
+use crate::{CITATION, CorrectedParams, FloorUnit, Material, Spread, algorithm};
 
 const ID: &str = "geometric-corrected";
 
@@ -125,24 +124,9 @@ impl Denoiser for GeometricCorrected {
         input.check(&card)?;
         let frame = input.target;
         let mut timer = StageTimer::start();
-
-        // Kernel radius from the noise.
-        let radii = radius::corrected(frame, &self.params).ok_or_else(|| no_variance(&card))?;
-        let guides = Guides::new(frame, self.tests());
-        timer.finish("radius");
-
-        // Weighted mean over like neighbours. All weights come from the input; nothing is filtered in place.
-        let p = &self.params;
-        let thresholds = Thresholds {
-            depth: p.depth_threshold as f32,
-            normal: p.normal_threshold as f32,
-            albedo: p.albedo_threshold as f32,
-        };
-        let cone = Cone::new(&frame.color.mean, &radii, &guides, thresholds, p.radius_max_px);
-        timer.finish("planes");
-        let mut output = Output::from_image(cone.filter());
-        timer.finish("filter");
-
+        let (image, radii) = algorithm::corrected(frame, &self.params, self.tests(), &mut timer)
+            .ok_or_else(|| no_variance(&card))?;
+        let mut output = Output::from_image(image);
         describe(&mut output, radii, input);
         output.stages = timer.into_stages();
         Ok(output)

@@ -1,13 +1,13 @@
-//! Materials, depths and normals as planes that the loop reads without a branch.
+//! Materials, depths and normals (Listing, lines 5-10) as planes that the loop reads without a branch.
 
 use noisefloor_frame::{FeatureId, Frame};
 use rayon::prelude::*;
 
 use crate::Material;
 
-/// Id that all background pixels share.
+/// Id that all background pixels share; ours, any number that is none of a material.
 const BACKGROUND: f32 = -1.0;
-/// Id outside the image: none equals it.
+/// Id outside the image: none equals it; ours.
 pub(crate) const OUTSIDE: f32 = f32::NAN;
 
 /// One entry per pixel in each plane.

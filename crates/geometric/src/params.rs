@@ -2,11 +2,11 @@ use noisefloor_denoiser::{choices, parameters};
 
 use crate::recurrence::Recurrence;
 
-/// Largest kernel radius that a parameter may ask for, in pixels: the cost grows with its square.
+/// Largest kernel radius that a parameter may ask for, in pixels: the cost grows with its square. Ours.
 pub const LARGEST_RADIUS_PX: f64 = 64.0;
 
 choices! {
-    /// What the source work's word "variance" stands for: the quantity v̂ that sets the kernel radius R = m·v̂.
+    /// What the source work's word "variance" (Listing, line 3) stands for: the quantity v̂ that sets the kernel radius R = m·v̂.
     pub enum Spread {
         /// Trace of the covariance of one sample, as on the slides. Depends on the exposure and does not shrink with more
         /// samples, so the bias stays.
@@ -19,7 +19,7 @@ choices! {
 }
 
 choices! {
-    /// What tells one material from another.
+    /// What tells one material from another (Listing, lines 5-6).
     pub enum Material {
         /// Equal material ids, as on the slides. A pixel that an edge crosses has the id of its first sample: averaged samples of
         /// a lamp and its ceiling then spread over one of the two.

@@ -1,4 +1,4 @@
-//! Kernel radius per pixel from the variance of the mean.
+//! Kernel radius per pixel from the variance of the mean (Listing, line 3).
 
 use noisefloor_frame::{Frame, Image, Variance, luminance};
 use rayon::prelude::*;
@@ -35,7 +35,7 @@ impl<'a> Trace<'a> {
     }
 }
 
-/// R in [0, radius_max_px]; a NaN becomes 0. `None` if the frame carries no variance.
+/// Listing, line 3, mended: R in [0, radius_max_px]; a NaN becomes 0. `None` if the frame carries no variance.
 pub(crate) fn corrected(frame: &Frame, params: &CorrectedParams) -> Option<Vec<f32>> {
     let trace = Trace::new(frame, params.variance_form)?;
     let floor = match (params.spread, params.floor_unit) {
@@ -58,6 +58,7 @@ pub(crate) fn corrected(frame: &Frame, params: &CorrectedParams) -> Option<Vec<f
         };
         (params.multiplier * spread).max(0.0).min(params.radius_max_px) as f32
     };
+    // Pixels that one thread takes at least, for speed; ours.
     let pixels = (0..frame.pixels()).into_par_iter().with_min_len(4096);
     Some(pixels.map_with(trace, radius).collect())
 }
@@ -66,7 +67,7 @@ fn luminance_at(mean: &Image, pixel: usize) -> f32 {
     luminance([0, 1, 2].map(|c| mean.plane(c)[pixel]))
 }
 
-/// R = multiplier·variance of one sample, capped. `None` if the frame carries no variance.
+/// Listing, line 3, by the letter: R = multiplier·variance of one sample, in pixels; capped, which is ours. `None` if the frame carries no variance.
 pub(crate) fn as_written(frame: &Frame, multiplier: f64, cap: f64, form: Recurrence) -> Option<Vec<f32>> {
     let mut trace = Trace::new(frame, form)?;
     let radius = |pixel: usize| (multiplier * trace.of_sample(pixel)).max(0.0).min(cap) as f32;

@@ -1,5 +1,8 @@
 //! The variance of the slides, as defined and as accumulated, beside Welford's.
 //!
+//! Two slides, whose lines are counted from the function's name on: "Mean" (lines 1-4) and "Variance" (lines 1-5), and
+//! "Incremental mean" (lines 1-2) and "Incremental variance" (lines 1-5, two of them for the name and its arguments).
+//!
 //! For N samples with variance σ², H_N = 1 + 1/2 + … + 1/N:
 //!
 //! | recurrence | expected value |
@@ -43,7 +46,7 @@ impl Recurrence {
     }
 }
 
-/// H_n, summed exactly where short and by its asymptotic series (error below 1e-12) beyond.
+/// H_n, summed exactly where short and by its asymptotic series (error below 1e-12) beyond; ours.
 fn harmonic(n: u32) -> f64 {
     const EULER: f64 = 0.577_215_664_901_532_9;
     if n <= 512 {
@@ -72,13 +75,15 @@ impl Incremental {
         let next = n + 1.0; // ≥ 1, so it may divide
         let before = self.mean;
         for (mean, x) in self.mean.iter_mut().zip(sample) {
-            *mean = (*mean * n + x) / next; // as on the slide
+            *mean = (*mean * n + x) / next; // Incremental mean, line 2
         }
+        // Incremental variance, line 3: whether the mean holds the new sample is not said.
         let delta = |mean: [f64; 3]| [0, 1, 2].map(|c| sample[c] - mean[c]);
         let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let (new, old) = (delta(self.mean), delta(before));
         // The first sample has no mean before it and adds nothing.
         let old = if self.count == 0 { [0.0; 3] } else { old };
+        // Incremental variance, lines 4-5: the division by n + 1 as printed, of the square alone, and then of all.
         self.as_written = n * self.as_written + dot(new, new) / next;
         self.updated_mean = (n * self.updated_mean + dot(new, new)) / next;
         self.previous_mean = (n * self.previous_mean + dot(old, old)) / next;
@@ -120,10 +125,13 @@ impl Incremental {
     }
 }
 
-/// The slides' two-pass definition: the mean squared distance from the mean, divisor N; 0 without samples.
+/// The slides' two-pass definition: the mean squared distance from the mean, divisor N; 0 without samples. The quotient 1/N,
+/// which many languages would take for one of integers as it is printed, is read as one of reals.
 #[must_use]
 pub fn two_pass(samples: &[[f64; 3]]) -> f64 {
     let n = samples.len().max(1) as f64; // an empty sum is 0 whatever it is divided by
+    // Mean, lines 2-4.
     let mean = [0, 1, 2].map(|c| samples.iter().map(|s| s[c]).sum::<f64>() / n);
+    // Variance, lines 2-5: a length squared, so one number, though it is declared a vector.
     samples.iter().map(|s| (0..3).map(|c| (s[c] - mean[c]).powi(2)).sum::<f64>()).sum::<f64>() / n
 }

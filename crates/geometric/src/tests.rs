@@ -1,3 +1,5 @@
+mod citations;
+
 use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostic, Diagnostics, Input, Need};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Moments, Samples, Sampling, Variance};
 

@@ -1,4 +1,5 @@
-//! The three candidate filters, in one sweep over the window.
+//! The three candidate filters, in one sweep over the window (Alg. 1, lines 9-14; Sec. 6): each is Eq. 1 with the smaller of
+//! both weights, Eq. 4.
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
@@ -11,9 +12,10 @@ use crate::selection::Choice;
 use crate::settings::{FLOOR, LOW_FLOOR, Settings};
 use crate::sure::sure;
 
-/// Step of the finite difference over the value.
+/// Step of the finite difference over the value: δ/u of Sec. 6, below Eq. 5.
 const STEP: f32 = 0.01;
-/// Values below this fraction of the image's median luminance get the derivative for fixed weights.
+/// Values below this fraction of the image's median luminance get the derivative for fixed weights. Ours: the text divides by
+/// whatever δ is, even by 0.
 const SMALL: f32 = 1e-6;
 
 /// What one candidate gives.
@@ -50,7 +52,7 @@ pub(crate) struct Wanted {
     pub counts: bool,
 }
 
-/// Runs the candidates of `which` on `target`, with windows that also take in `beside`.
+/// Runs the candidates of `which` on `target`, with windows that also take in `beside` (Sec. 8).
 pub(crate) fn candidates(
     method: &str,
     target: &Prepared<'_>,
@@ -62,9 +64,13 @@ pub(crate) fn candidates(
     let frame = target.frame;
     let (width, height) = (frame.width(), frame.height());
     let params = target.engine(settings, settings.radius, settings.color_k);
+    // k_c, k_f and r = R are the same for all, but for k_c = ∞ of THIRD: no patch.
     let pass = |choice: &Choice| match choice {
+        // Parameters: Alg. 1, line 9; the filter: Alg. 1, line 10.
         Choice::First => Pass { patch: Some(1), floor: FLOOR, derivative: true },
+        // Parameters: Alg. 1, line 11; the filter: Alg. 1, line 12.
         Choice::Second => Pass { patch: Some(3), floor: FLOOR, derivative: true },
+        // Parameters: Alg. 1, line 13; the filter: Alg. 1, line 14.
         Choice::Third => Pass { patch: None, floor: LOW_FLOOR, derivative: true },
     };
     let passes: Vec<Pass> = which.iter().map(pass).collect();
@@ -117,8 +123,8 @@ fn planes<'a>(prepared: &'a Prepared<'_>, counts: &'a Image, wanted: Wanted) -> 
     prepared.planes(targets)
 }
 
-/// δ of the finite difference, 0 where the pixel gets the derivative for fixed weights: where a channel is not positive
-/// or next to nothing.
+/// δ of the finite difference (Sec. 6), 0 where the pixel gets the derivative for fixed weights: where a channel is not
+/// positive or next to nothing.
 pub(crate) fn steps(color: &Image) -> Image {
     let least = SMALL * color.median_luminance().unwrap_or(0.0);
     let mut out = color.map(|v| STEP * v);

@@ -12,16 +12,16 @@ use crate::prepare::Prepared;
 use crate::settings::{FLOOR, Settings};
 use crate::sure::{mean_of_channels, sum_of_channels};
 
-/// Keeps dark pixels from taking all samples.
+/// Keeps dark pixels from taking all samples. Sec. 8 says relative and prints no number; the authors' program's.
 const DARK: f64 = 0.01;
-/// Window radius of the filter of error estimates, pixels.
+/// Window radius of the filter of error estimates, pixels (Sec. 8).
 const RADIUS: usize = 10;
-/// Patch radius of it, pixels.
+/// Patch radius of it, pixels (Sec. 8).
 const PATCH: usize = 3;
-/// k_c of it.
+/// k_c of it (Sec. 8).
 const K: f32 = 1.0;
 
-/// As printed: the relative error estimate of the combination, or of the candidate alone, times W(p) = Σ w/(1 + Σ w·n),
+/// As printed in Sec. 8: the relative error estimate of the combination, or of the candidate alone, times W(p) = Σ w/(1 + Σ w·n),
 /// which says how much a further sample of p does for the filtered image. The product is filtered by the colour,
 /// because it is as noisy as the estimate is.
 pub(crate) fn text(

@@ -1,4 +1,5 @@
-//! Features: normalised to unit range, filtered by themselves, and measured against variance and slope (Sec. 5).
+//! Features: normalised to unit range, filtered by themselves, and measured against variance and slope (Sec. 5): what
+//! Φ² and with it Eq. 3 compares.
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Estimate, Far, FeatureId, Frame, Image, Sampling, UnitRange};
@@ -16,9 +17,9 @@ pub(crate) struct Feature {
     pub name: String,
     /// Prefiltered mean.
     pub mean: Image,
-    /// Residual variance of it.
+    /// Residual variance of it: Var_j.
     pub variance: Image,
-    /// The larger of residual variance and squared slope.
+    /// The larger of residual variance and squared slope: max(Var_j, |Grad_j|²), what Φ² is divided by beside τ.
     pub spread: Image,
 }
 
@@ -43,21 +44,30 @@ pub(crate) fn usable(frame: &Frame, names: &[String], far: Far) -> Vec<(FeatureI
     out
 }
 
-/// Prefilters one feature of `frame`, which has it.
-pub(crate) fn prefilter(
-    method: &str,
+/// A feature in its unit range, before its filter.
+#[derive(Debug)]
+pub(crate) struct Noisy<'a> {
+    name: &'a str,
+    mean: Image,
+    variance: Image,
+    halves: Option<[Image; 2]>,
+}
+
+/// Alg. 1, line 3: one feature of `frame` after another. Alg. 1, line 4: its sample variance scaled as the colour's is
+/// (Sec. 4). What a feature without one gets is ours.
+pub(crate) fn noisy<'a>(
     frame: &Frame,
     feature: &Estimate,
-    name: &str,
+    name: &'a str,
     unit: UnitRange,
-    settings: &Settings,
-) -> Result<Feature, DenoiseError> {
+    scaling: VarianceScaling,
+) -> Noisy<'a> {
     let Estimate { mean, variance, halves } = unit.apply(feature);
     // Halves may go beyond the mean's range, but not beyond the engine's.
     let (mean, halves) = (within_range(mean), halves.map(|halves| halves.map(within_range)));
     let sampled = variance.map(|v| v.into_mean_variance().map(|v| v.min(MAX_VARIANCE)));
     let variance = match (&sampled, &halves) {
-        (Some(variance), Some(halves)) if scales(settings.scaling, frame.sampling) => {
+        (Some(variance), Some(halves)) if scales(scaling, frame.sampling) => {
             scaled_sample_variance(variance, halves, &frame.samples, MAX_VARIANCE)
         }
         (Some(variance), _) => variance.clone(),
@@ -65,15 +75,28 @@ pub(crate) fn prefilter(
         // Nothing is known of its noise: taken as it is.
         (None, None) => Image::new(mean.width(), mean.height(), mean.channels()),
     };
+    Noisy { name, mean, variance, halves }
+}
+
+/// Alg. 1, line 6: one feature of `frame` after another. Its weights come from its own patches (Sec. 5).
+pub(crate) fn prefilter(
+    method: &str,
+    frame: &Frame,
+    noisy: Noisy<'_>,
+    settings: &Settings,
+) -> Result<Feature, DenoiseError> {
+    let Noisy { name, mean, variance, halves } = noisy;
     let (mean, variance) = match (settings.prefilter, &halves) {
         (Some(own), Some(halves)) => {
             let (width, height) = (mean.width(), mean.height());
             let params =
                 NlmParams { center: settings.center, ..NlmParams::new(width, height, own.radius, own.k) };
+            // Alg. 1, line 7: both halves with weights from the whole.
             let guide = kernel::channels(&mean, &variance);
             let targets = kernel::half_planes(halves);
             let filtered = kernel::filter_guided(method, &params, own.patch, guide, targets)?;
             let halves = kernel::halves(&filtered.planes, width, height);
+            // Alg. 1, line 8: what their difference says of the noise that is left.
             (
                 mean_of_halves(&halves, &frame.samples),
                 smoothed_half_variance(&halves, &frame.samples, MAX_VARIANCE),
@@ -81,12 +104,13 @@ pub(crate) fn prefilter(
         }
         _ => (mean, variance),
     };
+    // Sec. 5: edges of the feature itself count like noise, else weights along them are too strict (Fig. 4).
     let slope = squared_slope(&mean, settings.gradient);
     let spread = variance.zip_map(&slope, f32::max);
     Ok(Feature { name: name.to_owned(), mean, variance, spread })
 }
 
-/// Whether the sample variance of such a frame is scaled.
+/// Whether the sample variance of such a frame is scaled: independent samples need none of it (Sec. 4).
 pub(crate) fn scales(scaling: VarianceScaling, sampling: Sampling) -> bool {
     match scaling {
         VarianceScaling::Auto => sampling != Sampling::Independent,
@@ -95,7 +119,7 @@ pub(crate) fn scales(scaling: VarianceScaling, sampling: Sampling) -> bool {
     }
 }
 
-/// Squared gradient magnitude per channel.
+/// |Grad_j|², the squared gradient magnitude, per channel (Sec. 5).
 pub(crate) fn squared_slope(image: &Image, rule: Gradient) -> Image {
     let rule = match rule {
         Gradient::Off => return Image::new(image.width(), image.height(), image.channels()),

@@ -1,21 +1,22 @@
-//! Error estimates, the choice between the candidates, and their combination (Algorithm 1, lines 14 to 27).
+//! Error estimates, maps of the choice between the candidates, and their combination (Alg. 1, lines 15-26; Sec. 6).
 
-use noisefloor_denoiser::{DenoiseError, StageTimer};
+use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
 use noisefloor_kernels::nlm::{Center, NlmParams};
 
 use crate::candidates::Candidate;
 use crate::kernel;
+use crate::params::Ties;
 use crate::prepare::Prepared;
 use crate::selection::select;
 use crate::settings::Settings;
 use crate::sure::{mean_of_channels, sum_of_channels};
 
-/// k_c of the filters of error estimates and selection maps.
+/// k_c of the filters of error estimates and selection maps (Alg. 1, line 15 and Alg. 1, line 22).
 const MAP_K: f32 = 1.0;
-/// Window radius for error estimates, pixels.
+/// Window radius for error estimates, pixels (Alg. 1, line 15).
 const ERROR_RADIUS: usize = 1;
-/// Window radius for selection maps, pixels.
+/// Window radius for selection maps, pixels (Alg. 1, line 22).
 const MAP_RADIUS: usize = 5;
 
 /// The combination of the candidates and how it came about.
@@ -35,37 +36,46 @@ pub(crate) struct FirstPass {
     pub sure: Image,
 }
 
-/// Chooses between all three candidates.
-pub(crate) fn first_pass(
+impl FirstPass {
+    /// Alg. 1, line 26: the candidates with these weights. The risk estimate of the combination is ours.
+    pub fn new(candidates: &[Candidate], errors: Image, binary: Image, weights: Image) -> Self {
+        let halves = candidates.iter().all(|c| c.halves.is_some()).then(|| {
+            [0, 1]
+                .map(|h| combined(candidates, &weights, |c| &c.halves.as_ref().expect("all have theirs")[h]))
+        });
+        let mean = combined(candidates, &weights, |c| &c.mean);
+        let sure = combined(candidates, &weights, |c| &c.sure);
+        Self { halves, mean, errors, binary, weights, sure }
+    }
+}
+
+/// Eq. 5 summed over the channels and smoothed over the least window: Alg. 1, line 16 for FIRST, Alg. 1, line 17 for SECOND,
+/// Alg. 1, line 18 for THIRD, one channel each.
+pub(crate) fn estimates(
     method: &str,
     target: &Prepared<'_>,
     candidates: &[Candidate],
     settings: &Settings,
-    timer: &mut StageTimer,
-) -> Result<FirstPass, DenoiseError> {
+) -> Result<Image, DenoiseError> {
     let (width, height) = (target.frame.width(), target.frame.height());
     let raw: Vec<Vec<f32>> = candidates.iter().map(|c| sum_of_channels(&c.sure).data().to_vec()).collect();
-    let errors = filter_errors(
-        method,
-        target,
-        &kernel::image(&raw, width, height),
-        (settings.map_patch, ERROR_RADIUS),
-        settings.center,
-    )?;
-    timer.finish("errors");
-    let binary = binary_maps(candidates, &errors, settings);
-    let maps = by_color(method, target, &binary, (settings.map_patch, MAP_RADIUS), settings.center)?;
-    let weights = normalized(&maps);
-    let halves = candidates.iter().all(|c| c.halves.is_some()).then(|| {
-        [0, 1].map(|h| combined(candidates, &weights, |c| &c.halves.as_ref().expect("all have theirs")[h]))
-    });
-    let mean = combined(candidates, &weights, |c| &c.mean);
-    let sure = combined(candidates, &weights, |c| &c.sure);
-    timer.finish("selection");
-    Ok(FirstPass { halves, mean, errors, binary, weights, sure })
+    let raw = kernel::image(&raw, width, height);
+    filter_errors(method, target, &raw, (settings.map_patch, ERROR_RADIUS), settings.center)
 }
 
-/// Filters maps with weights from the colour, with this patch and window radius.
+/// The maps of the choice, smoothed: Alg. 1, line 23 for FIRST, Alg. 1, line 24 for SECOND, Alg. 1, line 25 for THIRD, one
+/// channel each.
+pub(crate) fn filtered_maps(
+    method: &str,
+    target: &Prepared<'_>,
+    binary: &Image,
+    settings: &Settings,
+) -> Result<Image, DenoiseError> {
+    let maps = by_color(method, target, binary, (settings.map_patch, MAP_RADIUS), settings.center)?;
+    Ok(normalized(&maps))
+}
+
+/// Filters maps with weights from the colour (Eq. 2) alone, with this patch and window radius.
 fn by_color(
     method: &str,
     target: &Prepared<'_>,
@@ -102,20 +112,21 @@ pub(crate) fn unit_scale(image: &Image) -> f32 {
     if largest > 1.0 { (-largest.log2().ceil()).exp2() } else { 1.0 }
 }
 
-/// One channel per candidate, 1 where it is chosen.
-fn binary_maps(candidates: &[Candidate], errors: &Image, settings: &Settings) -> Image {
+/// One channel per candidate, 1 where it is chosen (Alg. 1, lines 19-21). What the derivatives of three channels are compared
+/// by is not printed; their mean, as in the authors' program.
+pub(crate) fn binary_maps(candidates: &[Candidate], errors: &Image, ties: Ties) -> Image {
     let derivatives: Vec<Image> = candidates.iter().map(|c| mean_of_channels(&c.derivative)).collect();
     let mut maps = Image::new(errors.width(), errors.height(), candidates.len());
     for p in 0..errors.pixels() {
         let errors = [0, 1, 2].map(|k| errors.plane(k)[p]);
         let slopes = [0, 1, 2].map(|k| derivatives[k].plane(0)[p]);
-        maps.plane_mut(select(errors, slopes, settings.ties).index())[p] = 1.0;
+        maps.plane_mut(select(errors, slopes, ties).index())[p] = 1.0;
     }
     maps
 }
 
-/// Divides the channels by their sum. The maps before filtering sum to 1 and share their weights, so the sum is 1 up
-/// to rounding.
+/// Divides the channels by their sum, as the authors' program does and Alg. 1 does not say. The maps before filtering sum to 1
+/// and share their weights, so the sum is 1 up to rounding.
 fn normalized(maps: &Image) -> Image {
     let mut out = maps.clone();
     for p in 0..maps.pixels() {

@@ -1,4 +1,8 @@
 //! Images to the planes of the engine and back.
+//!
+//! The engine, [`noisefloor_kernels::nlm`], is `flt` of Sec. 7: the weighted mean over a window, Eq. 1, with weights from
+//! patches of the colour, Eq. 2, weights from features, Eq. 3, and the smaller of the two, Eq. 4. Its naive twin has one
+//! function for each.
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
@@ -16,7 +20,7 @@ pub(crate) fn half_planes(halves: &[Image; 2]) -> Vec<&[f32]> {
     halves.iter().flat_map(Image::planes).collect()
 }
 
-/// Filters `targets` with weights from a guide alone.
+/// Filters `targets` with weights from a guide alone: Eq. 1 and Eq. 2, k_f = ∞.
 pub(crate) fn filter_guided(
     method: &str,
     params: &NlmParams,

@@ -5,19 +5,14 @@ use noisefloor_denoiser::{
     Parameters, StageTimer, Unit, method,
 };
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{MAX_PIXELS, MIN_EPSILON};
+use noisefloor_kernels::nlm::MIN_EPSILON;
 
-use crate::candidates::{Candidate, Wanted, candidates};
+use crate::algorithm::{self, Done, Goal, Task};
 use crate::density;
 use crate::diagnostics::{describe_choice, describe_inputs, figures};
-use crate::features::usable;
-use crate::first_pass::first_pass;
-use crate::kernel::within_range;
-use crate::prepare::Prepared;
-use crate::second_pass::second_pass;
 use crate::selection::Choice;
 use crate::settings::Settings;
-use crate::{Density, Params, SecondPass, card};
+use crate::{Density, Params, card};
 
 /// Factories of the whole method and of its three candidates.
 #[must_use]
@@ -80,59 +75,15 @@ impl Rdfc {
         &self.params
     }
 
-    /// Prepares the target and its neighbours, all of which are in use, and runs the candidates.
-    fn start<'a>(
-        &self,
-        input: &Input<'a>,
-        epsilon: f32,
-        wanted: Wanted,
-        timer: &mut StageTimer,
-    ) -> Result<(Prepared<'a>, Vec<Candidate>), DenoiseError> {
-        DenoiseError::refuse_size(self.id, input.target, MAX_PIXELS)?;
-        // All frames are brought to the target's units.
-        let features = usable(input.target, &self.params.features, self.settings.far);
-        let prepare = |frame, timer: &mut StageTimer| {
-            Prepared::new(self.id, frame, &features, epsilon, &self.settings, timer)
-        };
-        let target = prepare(input.target, timer)?;
-        let beside = input
-            .before
-            .iter()
-            .chain(input.after)
-            .map(|frame| prepare(frame, timer))
-            .collect::<Result<Vec<_>, _>>()?;
-        // A neighbour that lacks a feature of the target has no distances to it.
-        let beside: Vec<Prepared<'_>> = beside.into_iter().filter(|frame| alike(&target, frame)).collect();
-        let which = self.only.map_or_else(|| Choice::ALL.to_vec(), |choice| vec![choice]);
-        let candidates = candidates(self.id, &target, &beside, &which, wanted, &self.settings)?;
-        timer.finish("candidates");
-        Ok((target, candidates))
-    }
-
     /// [`Denoiser::denoise`] at the exposure for which ε is meant.
     fn filter(&self, input: &Input<'_>, epsilon: f32) -> Result<Output, DenoiseError> {
         let mut timer = StageTimer::start();
-        let halves = self.only.is_none() && self.settings.second_pass != SecondPass::Off;
-        let wanted = Wanted { halves, counts: false };
-        let (target, mut candidates) = self.start(input, epsilon, wanted, &mut timer)?;
+        let task = self.task(epsilon, Goal::Image);
+        let Done { target, mut candidates, combination } =
+            algorithm::denoise(&task, &self.settings, input, &mut timer)?;
         let diagnostics = input.diagnostics != Diagnostics::Off;
-        let mut output = if self.only.is_some() {
-            let candidate = candidates.remove(0); // asked for one
-            let mut output = Output::from_image(candidate.mean);
-            output.error_estimate = Some(candidate.sure);
-            output
-        } else {
-            let first = first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?;
-            let mean = within_range(first.mean.clone());
-            let mut output = Output::from_image(match &first.halves {
-                None => mean,
-                Some(halves) => {
-                    let halves = halves.clone().map(within_range);
-                    let image = second_pass(self.id, &target, &halves, &mean, &self.settings)?;
-                    timer.finish("second pass");
-                    image
-                }
-            });
+        let mut output = if let Some((first, image)) = combination {
+            let mut output = Output::from_image(image);
             figures(&mut output, &first);
             if diagnostics {
                 describe_choice(&mut output, &candidates, &first);
@@ -141,6 +92,11 @@ impl Rdfc {
             if first.halves.is_some() {
                 output.estimate_of = Some(("first pass".into(), first.mean));
             }
+            output
+        } else {
+            let candidate = candidates.remove(0); // asked for one
+            let mut output = Output::from_image(candidate.mean);
+            output.error_estimate = Some(candidate.sure);
             output
         };
         if let Some(estimate) = &output.error_estimate {
@@ -157,6 +113,10 @@ impl Rdfc {
         Ok(output)
     }
 
+    fn task(&self, epsilon: f32, goal: Goal) -> Task<'_> {
+        Task { id: self.id, only: self.only, features: &self.params.features, epsilon, goal }
+    }
+
     /// The input with the neighbouring frames in use, the nearest of each side.
     fn in_use<'a>(&self, input: &Input<'a>) -> Input<'a> {
         let k = self.params.neighbors;
@@ -171,20 +131,13 @@ impl Default for Rdfc {
     }
 }
 
-/// Whether both frames have the same features with the same channels.
-fn alike(a: &Prepared<'_>, b: &Prepared<'_>) -> bool {
-    let shape = |p: &Prepared<'_>| -> Vec<(String, usize)> {
-        p.features.iter().map(|f| (f.name.clone(), f.mean.channels())).collect()
-    };
-    shape(a) == shape(b)
-}
-
 impl Denoiser for Rdfc {
     fn card(&self) -> MethodCard {
         card::card(self.id, self.only, &self.params)
     }
 
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        // Alg. 1, line 1: what it begins with is there, and at the exposure for which ε is meant.
         input.check(&self.card())?;
         let input = &self.in_use(input);
         let exposed = Exposed::new(input, BRIGHT);
@@ -198,30 +151,31 @@ impl Denoiser for Rdfc {
     }
 }
 
+/// Adaptive sampling (Sec. 8).
 impl Adaptive for Rdfc {
     fn density(&self, input: &Input<'_>) -> Result<Image, DenoiseError> {
         input.check(&self.card())?;
         let input = &self.in_use(input);
-        let wanted = Wanted { halves: false, counts: true };
         // A density has no unit.
         let exposed = Exposed::new(input, BRIGHT);
+        let printed = self.settings.density == Density::Text;
+        let goal = if printed { Goal::CombinationDensity } else { Goal::CandidateDensity };
+        let task = self.task(epsilon(&exposed), goal);
         let mut timer = StageTimer::start();
-        let (target, candidates) =
-            self.start(&exposed.input(input), epsilon(&exposed), wanted, &mut timer)?;
-        if self.settings.density != Density::Text {
-            return density::code(self.id, &target, &candidates[0], &self.settings);
+        let Done { target, candidates, combination } =
+            algorithm::denoise(&task, &self.settings, &exposed.input(input), &mut timer)?;
+        if printed {
+            let first = combination.as_ref().map(|(first, _)| first);
+            density::text(self.id, &target, &candidates, first, &self.settings)
+        } else {
+            density::code(self.id, &target, &candidates[0], &self.settings)
         }
-        let first = match self.only {
-            Some(_) => None,
-            None => Some(first_pass(self.id, &target, &candidates, &self.settings, &mut timer)?),
-        };
-        density::text(self.id, &target, &candidates, first.as_ref(), &self.settings)
     }
 }
 
-/// Largest value that goes to the engine. Its square and that times 10⁶ are within the engine's range.
+/// Largest value that goes to the engine; ours. Its square and that times 10⁶ are within the engine's range.
 const BRIGHT: f32 = 1e12;
-/// ε of the text (Sec. 4), for frames of a median luminance between ¼ and ½.
+/// ε of Sec. 4, for frames of a median luminance between ¼ and ½: the authors' program's, as the text prints no number.
 const EPSILON: f64 = 1e-10;
 
 /// ε at the exposure of a frame, above 0.

@@ -4,7 +4,7 @@ use noisefloor_kernels::nlm::{MAX_PATCH_RADIUS, MAX_WINDOW_RADIUS};
 choices! {
     /// Whose choices hold where the printed text and the authors' program differ.
     pub enum Profile {
-        /// The printed text, with its misprint in line 21 mended.
+        /// The printed text, with its misprint in Alg. 1, line 21 mended.
         Paper = "paper",
         /// The authors' program, as far as it is here: without its weights of symmetric pairs, its smoothing of weights and
         /// its mirrored windows.
@@ -27,7 +27,7 @@ choices! {
 }
 
 choices! {
-    /// Which pixels' variance and gradient Φ² is divided by (Eq. 6).
+    /// Which pixels' variance and gradient Φ² is divided by (Sec. 5, above Eq. 3).
     pub enum FeatureDenominator {
         /// The centre's alone, as printed.
         Centre = "centre",
@@ -37,9 +37,9 @@ choices! {
 }
 
 choices! {
-    /// Weight of a pixel in its own mean.
+    /// Weight of a pixel in its own mean (Eq. 1).
     pub enum CenterWeight {
-        /// 1, as the formula gives.
+        /// 1, as Eq. 2 and Eq. 3 give.
         One = "one",
         /// The largest of its neighbours' weights, at least 1e-3.
         LargestNeighbor = "largest-neighbor",
@@ -47,7 +47,7 @@ choices! {
 }
 
 choices! {
-    /// How the derivative in SURE is taken.
+    /// How the derivative in SURE is taken (Sec. 6, below Eq. 5).
     pub enum DerivativeRule {
         /// Each channel alone, in the pixel's own patch and in its neighbours'.
         Exact = "exact",
@@ -59,7 +59,7 @@ choices! {
 choices! {
     /// What differences of the colour are divided by in the second pass, beside ε.
     pub enum ColorDenominator {
-        /// k_c²·(v(p) + v(q)), as printed: a bright pixel that the combination has left, whose variance is as large as itself,
+        /// k_c²·(v(p) + v(q)), as printed (Sec. 4): a bright pixel that the combination has left, whose variance is as large as itself,
         /// is averaged into all pixels around it.
         Pair = "pair",
         /// 2·k_c²·v(p), as programmed: the pixel alone says what is noise to it.
@@ -93,7 +93,7 @@ choices! {
 }
 
 choices! {
-    /// Which of SECOND and THIRD a pixel of equal error estimates gets.
+    /// Which of SECOND and THIRD a pixel of equal error estimates gets; neither by the letter of Alg. 1, line 20 and line 21.
     pub enum Ties {
         /// SECOND.
         Earlier = "earlier",
@@ -103,9 +103,9 @@ choices! {
 }
 
 choices! {
-    /// The pass that removes what the combination leaves.
+    /// The pass that removes what the combination leaves (Alg. 1, lines 27-29).
     pub enum SecondPass {
-        /// Colour alone, patch radius 1, the full window (Algorithm 1).
+        /// Colour alone, patch radius 1, the full window (Alg. 1, line 27).
         Text = "text",
         /// Colour and features, patch radius 3, half the window.
         Code = "code",
@@ -126,9 +126,9 @@ choices! {
     }
 }
 
-/// Most frames on each side.
+/// Most frames on each side; ours, for the time that it takes.
 const MAX_NEIGHBORS: usize = 8;
-/// Most features in use.
+/// Most features in use; ours: of three channels each they are within the engine's limit.
 const MAX_FEATURES: usize = 10;
 
 parameters! {
@@ -136,10 +136,13 @@ parameters! {
     pub struct Params {
         /// Printed text, authors' program, or what wins, where they differ.
         profile: Profile = Profile::Best, choice::<Profile>();
+        // R of the input to Alg. 1; 10 in Sec. 9, and the scenes that had 20.
         /// Radius of the window of the candidates and the second pass (20 for rings, conference, fog).
         window_radius_px: usize = 10, integer(0..=MAX_WINDOW_RADIUS).unit("px").symbol("R").section("Sec. 9");
+        // 0.45: Alg. 1, line 9, Alg. 1, line 11 and Alg. 1, line 27. THIRD has ∞: Alg. 1, line 13.
         /// Colour sensitivity of FIRST, SECOND and the second pass.
         color_k: f64 = 0.45, number(0.001..=1000.0).symbol("k_c").section("Alg. 1");
+        // 0.6: Alg. 1, line 9, Alg. 1, line 11 and Alg. 1, line 13.
         /// Feature sensitivity of the candidates.
         feature_k: f64 = 0.6, number(0.001..=1000.0).symbol("k_f").section("Alg. 1");
         /// Features in use, by name, where the frame has them.
@@ -147,6 +150,7 @@ parameters! {
             names(MAX_FEATURES).symbol("f_j").section("Sec. 5");
         /// Whether features are filtered before use.
         prefilter: bool = true, flag().section("Sec. 5, Fig. 3");
+        // k_c = 1, r = 5, f = 3: Sec. 5, and Alg. 1, line 5.
         /// k_c of the features' own filter.
         prefilter_k: f64 = 1.0, number(0.001..=1000.0).section("Alg. 1");
         /// Window radius of the features' own filter.

@@ -1,11 +1,12 @@
 //! A frame with everything that the filters look at.
 
-use noisefloor_denoiser::{DenoiseError, StageTimer};
+use noisefloor_denoiser::{DenoiseError, Need};
 use noisefloor_frame::{FeatureId, Frame, Image, UnitRange, Variance};
 use noisefloor_kernels::nlm::{MAX_VALUE, MAX_VARIANCE, NlmParams, Planes};
 use noisefloor_toolbox::scaled_sample_variance;
 
-use crate::features::{Feature, prefilter, scales};
+use crate::VarianceScaling;
+use crate::features::{Feature, scales};
 use crate::kernel;
 use crate::settings::Settings;
 
@@ -18,56 +19,11 @@ pub(crate) struct Prepared<'a> {
     /// Variance of the colour's mean.
     pub variance: Image,
     pub features: Vec<Feature>,
-    /// ε of distances of the colour.
+    /// ε of distances of the colour (Sec. 4).
     pub epsilon: f32,
 }
 
-impl<'a> Prepared<'a> {
-    /// Prepares a checked frame with those of `features` that it has. Both stages go to `timer`.
-    pub fn new(
-        method: &str,
-        frame: &'a Frame,
-        features: &[(FeatureId, UnitRange)],
-        epsilon: f32,
-        settings: &Settings,
-        timer: &mut StageTimer,
-    ) -> Result<Self, DenoiseError> {
-        let sampled = frame.color.variance.as_ref().map(Variance::mean_variance);
-        let (Some(halves), Some(sampled)) = (&frame.color.halves, sampled) else {
-            return Err(DenoiseError::MissingInputs {
-                method: method.into(),
-                missing: vec![
-                    noisefloor_denoiser::Need::ColorHalves,
-                    noisefloor_denoiser::Need::ColorVariance,
-                ],
-                ways_out: Vec::new(),
-            });
-        };
-        check_values(method, &frame.color.mean, MAX_VALUE)?;
-        for half in halves {
-            check_values(method, half, MAX_VALUE)?;
-        }
-        for feature in features.iter().filter_map(|(id, _)| frame.feature(id)) {
-            check_values(method, &feature.mean, f32::MAX)?;
-            for half in feature.halves.iter().flatten() {
-                check_values(method, half, f32::MAX)?;
-            }
-        }
-        let variance = if scales(settings.scaling, frame.sampling) {
-            scaled_sample_variance(sampled, halves, &frame.samples, MAX_VARIANCE)
-        } else {
-            sampled.map(|v| v.min(MAX_VARIANCE))
-        };
-        timer.finish("variance");
-        let features = features
-            .iter()
-            .filter_map(|(id, unit)| frame.feature(id).map(|feature| (id, feature, *unit)))
-            .map(|(id, feature, unit)| prefilter(method, frame, feature, id.name(), unit, settings))
-            .collect::<Result<_, _>>()?;
-        timer.finish("prefilter");
-        Ok(Self { frame, halves, variance, features, epsilon })
-    }
-
+impl Prepared<'_> {
     /// Parameters of the engine for weights from the colour and the features.
     pub fn engine(&self, settings: &Settings, radius: usize, k: f32) -> NlmParams {
         NlmParams {
@@ -87,6 +43,57 @@ impl<'a> Prepared<'a> {
             targets,
         }
     }
+}
+
+/// Half buffers and sample variance of the mean of the colour: c and svar_c of Alg. 1, from a frame whose values and
+/// `features` are finite.
+pub(crate) fn noisy_color<'a>(
+    method: &str,
+    frame: &'a Frame,
+    features: &[(FeatureId, UnitRange)],
+) -> Result<(&'a [Image; 2], &'a Image), DenoiseError> {
+    let sampled = frame.color.variance.as_ref().map(Variance::mean_variance);
+    let (Some(halves), Some(sampled)) = (&frame.color.halves, sampled) else {
+        return Err(DenoiseError::MissingInputs {
+            method: method.into(),
+            missing: vec![Need::ColorHalves, Need::ColorVariance],
+            ways_out: Vec::new(),
+        });
+    };
+    check_values(method, &frame.color.mean, MAX_VALUE)?;
+    for half in halves {
+        check_values(method, half, MAX_VALUE)?;
+    }
+    for feature in features.iter().filter_map(|(id, _)| frame.feature(id)) {
+        check_values(method, &feature.mean, f32::MAX)?;
+        for half in feature.halves.iter().flatten() {
+            check_values(method, half, f32::MAX)?;
+        }
+    }
+    Ok((halves, sampled))
+}
+
+/// Alg. 1, line 2: the sample variance scaled to the level of the two-buffer variance (Sec. 4), which low-discrepancy
+/// samples need; of independent ones it is right as it is.
+pub(crate) fn color_variance(
+    frame: &Frame,
+    halves: &[Image; 2],
+    sampled: &Image,
+    scaling: VarianceScaling,
+) -> Image {
+    if scales(scaling, frame.sampling) {
+        scaled_sample_variance(sampled, halves, &frame.samples, MAX_VARIANCE)
+    } else {
+        sampled.map(|v| v.min(MAX_VARIANCE))
+    }
+}
+
+/// Whether both frames have the same features with the same channels.
+pub(crate) fn alike(a: &Prepared<'_>, b: &Prepared<'_>) -> bool {
+    let shape = |p: &Prepared<'_>| -> Vec<(String, usize)> {
+        p.features.iter().map(|f| (f.name.clone(), f.mean.channels())).collect()
+    };
+    shape(a) == shape(b)
 }
 
 /// Refuses values that there is no answer for: not finite ones, as brighter frames come at a lower exposure; with the

@@ -1,4 +1,4 @@
-//! Which candidate a pixel gets.
+//! Which candidate a pixel gets (Alg. 1, lines 19-21; Sec. 6).
 
 use crate::params::Ties;
 
@@ -27,15 +27,17 @@ impl Choice {
 /// The candidate of least error estimate. FIRST is none where its mean derivative is not below SECOND's: its estimate
 /// is then thought to be low by chance (Sec. 6). `errors` and `derivatives` are those of FIRST, SECOND, THIRD.
 ///
-/// Line 21 of Algorithm 1 is printed as e_b < e_r ∧ e_g < e_b for THIRD; e_b < e_r ∧ e_b < e_g is meant, else SECOND
+/// Alg. 1, line 21 is printed as e_b < e_r ∧ e_g < e_b for THIRD; e_b < e_r ∧ e_b < e_g is meant, else SECOND
 /// and THIRD are chosen together and THIRD never where it is best. A pixel where FIRST is least but no candidate
 /// gets the better of the others, as in the authors' program; the printed lines leave it without any.
 #[must_use]
 pub fn select(errors: [f32; 3], derivatives: [f32; 3], ties: Ties) -> Choice {
     let [first, second, third] = errors;
+    // Alg. 1, line 19.
     if first < second && first < third && derivatives[0] < derivatives[1] {
         return Choice::First;
     }
+    // Alg. 1, line 20 for SECOND; Alg. 1, line 21, as it is meant, for THIRD. Of ties the lines say nothing.
     let third_wins = match ties {
         Ties::Earlier => third < second,
         Ties::Later => third <= second,

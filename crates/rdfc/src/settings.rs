@@ -9,11 +9,12 @@ use crate::params::{
 };
 use crate::{Gradient, Params, VarianceScaling};
 
-/// Least weight of a pixel in its own mean, for [`CenterWeight::LargestNeighbor`].
+/// Least weight of a pixel in its own mean, for [`CenterWeight::LargestNeighbor`]: the authors' program's.
 const LEAST_CENTER: f32 = 1e-3;
-/// τ of FIRST and SECOND.
+/// τ of FIRST and SECOND (Alg. 1, line 9 and Alg. 1, line 11): printed 10E−3, and 10⁻³ in the authors' program.
 pub(crate) const FLOOR: f32 = 1e-3;
-/// τ of THIRD, and of the program's second pass.
+/// τ of THIRD and of the second pass (Alg. 1, line 13 and Alg. 1, line 27): printed 10E−4, and 10⁻⁴ in the authors' program. It
+/// has a say in the program's second pass only, as the printed one has no features.
 pub(crate) const LOW_FLOOR: f32 = 1e-4;
 
 /// What the sources, and those who measure, decide differently.
@@ -32,20 +33,21 @@ struct Choices {
 }
 
 impl Choices {
-    /// The printed text.
+    /// The printed text. Where it is silent ours: slope, depth range, derivative of three channels, and ties, of which the later
+    /// would blur noise-free input.
     const PAPER: Self = Self {
         gradient: Gradient::Central,
         depth_range: DepthRange::Largest,
-        feature_denominator: FeatureDenominator::Centre,
-        center_weight: CenterWeight::One,
+        feature_denominator: FeatureDenominator::Centre, // Sec. 5, Φ²
+        center_weight: CenterWeight::One,                // Eq. 2 and Eq. 3 at q = p
         derivative: DerivativeRule::Exact,
         ties: Ties::Earlier,
-        second_pass: SecondPass::Text,
-        second_pass_denominator: ColorDenominator::Pair,
-        map_patch: 1,
-        density: Density::Text,
+        second_pass: SecondPass::Text,                   // Alg. 1, line 27
+        second_pass_denominator: ColorDenominator::Pair, // Sec. 4, Δ²
+        map_patch: 1,                                    // Alg. 1, line 15 and Alg. 1, line 22
+        density: Density::Text,                          // Sec. 8
     };
-    /// The authors' program.
+    /// The authors' program: read off its source, not printed.
     const AUTHORS: Self = Self {
         gradient: Gradient::MinHalf,
         depth_range: DepthRange::Common,
@@ -110,7 +112,7 @@ pub(crate) struct Settings {
     pub density: Density,
 }
 
-/// The features' own filter.
+/// The features' own filter (Sec. 5; Alg. 1, line 5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Prefilter {
     pub k: f32,

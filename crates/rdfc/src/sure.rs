@@ -1,8 +1,9 @@
-//! Stein's unbiased risk estimate of a filter's squared error (Sec. 6).
+//! Stein's unbiased risk estimate of a filter's squared error (Sec. 6, Eq. 5).
 
 use noisefloor_frame::Image;
 
-/// (F − u)² − var + 2·var·dF/du per pixel and channel; negative values are right on average and kept.
+/// The terms of Eq. 5, (F − u)² − σ² + 2·σ²·dF/du, per pixel and channel, with the estimated variance for σ². Negative values
+/// are right on average and kept.
 pub(crate) fn sure(filtered: &Image, noisy: &Image, variance: &Image, derivative: &Image) -> Image {
     let mut out = filtered.clone();
     let inputs = noisy.data().iter().zip(variance.data()).zip(derivative.data());
@@ -14,7 +15,7 @@ pub(crate) fn sure(filtered: &Image, noisy: &Image, variance: &Image, derivative
     out
 }
 
-/// Sum over the channels: one plane.
+/// Sum over the channels, that of Eq. 5: one plane.
 pub(crate) fn sum_of_channels(image: &Image) -> Image {
     channelwise(image, |sum, _| sum)
 }

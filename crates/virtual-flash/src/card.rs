@@ -67,8 +67,11 @@ fn alternatives(params: &Params) -> Vec<Alternative> {
     alternatives
 }
 
-/// One step keeps D inside the interval of its own test, which carries the bound of Theorem 3.1 (App. A). In two
-/// steps with at most the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
+/// One step keeps D inside the interval of its own test (App. A, Eq. 6), as a mean of what lies there does: |D − x̄| ≤ L/2, always.
+/// With the truth in it too, at the interval's probability, they are at most L apart (App. A, Eq. 7): |D − μ| ≤ 2·t·s/√n at
+/// 1 − α, which is Theorem 3.1 (Sec. 3.4). L is the whole length; the appendix also asks that x̄ + L not be negative, which nothing needs.
+///
+/// In two steps (Sec. 3.5) with at most the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
 /// t₁·s/√n with probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
 fn claims(params: &Params, steps: &[Step]) -> Claims {
     let mut claims = Claims::default();

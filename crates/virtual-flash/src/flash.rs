@@ -1,10 +1,11 @@
-//! The flash image F = F0 + I·S from its parts.
+//! The flash image F = F0 + I·S from its parts (Sec. 3.1): F0, the light of the original sources over the paths that are kept,
+//! and S, shading by a point light at the eye without a visibility test. Which paths are kept is the renderer's part.
 
 use noisefloor_frame::{Image, luminance};
 use noisefloor_toolbox::percentile;
 use rayon::prelude::*;
 
-/// Values or pixels that one thread handles at a time.
+/// Values or pixels that one thread handles at a time; ours.
 pub(crate) const CHUNK: usize = 1 << 14;
 
 /// One value for each pixel from its three channels.
@@ -19,7 +20,8 @@ pub(crate) fn per_pixel(image: &Image, value: impl Fn([f32; 3]) -> f32 + Sync) -
     out
 }
 
-/// I = max(0, Σ (L(N) − L(F0)) / Σ L(S)): the flash light makes up for the light that F0 lacks (Sec. 3.1).
+/// I = max(0, Σ (L(N) − L(F0)) / Σ L(S)): the flash light makes up for the light that F0 lacks (Sec. 3.1, which says so in words;
+/// the formula is ours).
 ///
 /// L(N) and L(F0) are both clipped at the given percentile of L(N), so that neither a firefly nor a visible lamp, which both
 /// images show, sets the intensity. Pixels with a non-finite value are left out. Without any light in S the intensity is 0.
@@ -44,7 +46,7 @@ pub(crate) fn intensity(color: &Image, base: &Image, light: &Image, clip_percent
     if flash > 0.0 && missing > 0.0 { missing / flash } else { 0.0 }
 }
 
-/// F = F0 + I·S.
+/// F = F0 + I·S: the two parts of Sec. 3.1.
 pub(crate) fn sum(base: &Image, light: &Image, intensity: f64) -> Image {
     let mut out = base.clone();
     out.data_mut().par_chunks_mut(CHUNK).zip(light.data().par_chunks(CHUNK)).for_each(|(out, light)| {
@@ -55,7 +57,7 @@ pub(crate) fn sum(base: &Image, light: &Image, intensity: f64) -> Image {
     out
 }
 
-/// var(F) = var(F0) + 2I·cov + I²·var(S), at least 0. An unknown covariance counts as 0.
+/// var(F) = var(F0) + 2I·cov + I²·var(S), at least 0. An unknown covariance counts as 0. Ours: Sec. 4 asks for the noise of F.
 pub(crate) fn variance(base: &Image, light: &Image, covariance: Option<&Image>, intensity: f64) -> Image {
     let mut out = base.clone();
     let sum = |base: f32, shared: f32, light: f32| {

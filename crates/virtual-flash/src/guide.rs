@@ -1,4 +1,4 @@
-//! The guide image and the width of the range weights that its noise asks for.
+//! The guide image F (Sec. 3.1) and the width σ_r of the range weights (Eq. 1) that its noise asks for (Sec. 4).
 
 use noisefloor_frame::{Flash, Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
@@ -64,7 +64,8 @@ struct Widths<'a> {
 }
 
 impl Widths<'_> {
-    /// σ_r²(p) = κ²·mean over patch and channels of the guide's variance, at least (floor·bright level)².
+    /// σ_r²(p) = κ²·mean over patch and channels of the guide's variance, at least (floor·bright level)². Sec. 4 says that σ_r is
+    /// proportional to the standard error of F; the rest is ours.
     fn guide(&self, image: Image, variance: &Image, intensity: Option<f64>) -> Guide {
         let magnitudes = per_pixel(&image, |values| {
             values.into_iter().map(f32::abs).fold(0.0, |a, b| if b > a { b } else { a })

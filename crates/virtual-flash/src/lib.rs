@@ -1,7 +1,9 @@
 #![doc = include_str!("../README.md")]
 
+mod algorithm;
 mod card;
 mod diagnostics;
+mod filter;
 mod flash;
 mod guide;
 mod method;

@@ -47,6 +47,7 @@ choices! {
 parameters! {
     /// Parameters of `virtual-flash`. Defaults are the source work's where it gives a value, and else ours.
     pub struct Params {
+        // A section says where the value is printed; lines without one say that it is ours.
         /// 2: both steps; 1: one step with the settings `second_…`.
         steps: u8 = 2, integer(1..=2).section("Sec. 3.5, Fig. 7");
         /// The image that range weights come from.
@@ -88,13 +89,13 @@ parameters! {
     }
 }
 
-/// Window, level and spatial width of one step.
+/// Window, level and spatial width of one step (Sec. 3.5).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Step {
     pub name: &'static str,
     pub window_radius: usize,
     pub level: Level,
-    /// σ_s in pixels.
+    /// σ_s of g_s (Eq. 1) in pixels: a third of the window's width (Sec. 4).
     pub spatial_sigma: f32,
 }
 

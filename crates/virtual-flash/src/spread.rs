@@ -1,5 +1,5 @@
-//! What the homogeneity test takes as the spread of what it compares: the input's in step 1, in step 2 what
-//! `second_spread` says, from sums that step 1 carries along.
+//! What the homogeneity test takes as the spread of what it compares: the input's in step 1 (s_p/√n_p of Eq. 2), in step 2,
+//! of which Sec. 3.5 does not say it, what `second_spread` says, from sums that step 1 carries along.
 
 use std::borrow::Cow;
 

@@ -1,6 +1,7 @@
 //! Helpers of the tests.
 
 mod bounds;
+mod citations;
 mod filter;
 
 use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostics, Guarded, Input, Need, Output, half_widths};

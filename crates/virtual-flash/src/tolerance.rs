@@ -1,4 +1,7 @@
-//! Half-widths of the homogeneity test (Eq. 2).
+//! Half-widths of the homogeneity test (Sec. 3.3, Eq. 2).
+//!
+//! t·s_p/√n_p is half the length L of the interval around x̄_p that holds the truth with the step's probability (App. A, Eq. 3),
+//! so the means of homogeneous pixels lie within L/2 of x̄_p (App. A, Eq. 4).
 
 use noisefloor_denoiser::into_half_widths;
 use noisefloor_frame::{Image, Samples};
@@ -7,12 +10,12 @@ use noisefloor_stats::Level;
 
 use crate::{Params, TestKind};
 
-/// t·s_p/√n_p per pixel, as the chosen test needs it.
+/// t·s_p/√n_p per pixel, as the chosen test needs it; t two-sided with n_p − 1 degrees of freedom.
 #[derive(Debug, Clone)]
 pub(crate) enum Tolerance {
     /// No test.
     Off,
-    /// Three channels, one set.
+    /// Three channels, one set: Eq. 2 in each, which keeps Eq. 4 for each.
     Joint(Image),
     /// Three channels, three sets.
     PerChannel(Image),

@@ -1,5 +1,5 @@
 //! A row of the windows of some neighbouring pixels: what it holds is copied once and added, weighted, to each pixel's sums
-//! per column.
+//! per column (Listing, lines 5-13, mended). Sizes are ours, for speed.
 //!
 //! The copy keeps what eight pixels read in the nearest cache, and shows the compiler that sums and values are not the same
 //! memory. The loops have no branch and no sum across columns, so that the compiler makes vectors of them. What must not count has
@@ -38,7 +38,9 @@ impl Own {
     #[expect(clippy::neg_cmp_op_on_partial_ord, reason = "a normal that is NaN has to pass")]
     fn weight(&self, most: &Thresholds, id: f32, depth: f32, normal: [f32; 3], distance: f32) -> f32 {
         let cosine = self.normal[0] * normal[0] + self.normal[1] * normal[1] + self.normal[2] * normal[2];
+        // Listing, line 11: 1 − distance/R in place of (1 − distance)/R.
         let cone = 1.0 - distance * self.inverse;
+        // Listing, lines 5-6, lines 7-8 and lines 9-10, the last with its comparison turned round.
         // No id equals that outside the image. A depth that is NaN makes its comparison false and keeps the neighbour out; a
         // normal that is NaN is none, and keeps nobody out.
         let alike = (id == self.id)
@@ -48,7 +50,7 @@ impl Own {
         if alike { cone } else { 0.0 }
     }
 
-    /// Whether a neighbour's albedo is like that of the pixel.
+    /// Whether a neighbour's albedo is like that of the pixel: ours, for Listing, lines 5-6.
     #[inline(always)]
     fn is_tinted_like(&self, most: &Thresholds, albedo: [f32; 3]) -> bool {
         let [r, g, b] = albedo;
@@ -176,6 +178,7 @@ impl Strip {
                 let like = own.is_tinted_like(&most, [tint_r[i], tint_g[i], tint_b[i]]);
                 weight = if like { weight } else { 0.0 };
             }
+            // Listing, line 12 and line 13.
             w[i] += weight;
             r[i] += weight * red[i];
             g[i] += weight * green[i];

@@ -137,7 +137,7 @@ unsafe fn ruled<S: Simd, const PATCH: usize, const GUIDED: bool>(
     }
 }
 
-/// Squared guide differences Σ_c (F_c(p) − F_c(p + offset))² for `N` neighbouring offsets.
+/// Squared guide differences Σ_c (F_c(p) − F_c(p + offset))² (moon2013flash, Sec. 3.2) for `N` neighbouring offsets.
 ///
 /// # Safety
 /// As [`pass`].
@@ -262,7 +262,7 @@ unsafe fn carry<S: Simd>(tile: &mut TileView<'_>, channel: usize, weight: S::F, 
     }
 }
 
-/// Adds the block's offsets to the running sums of every pixel of the tile.
+/// Adds the block's offsets to the running sums of every pixel of the tile: Eq. 1 over the set of Eq. 2.
 ///
 /// # Safety
 /// As [`pass`].

@@ -1,4 +1,4 @@
-//! The membership test, shared by the twins, the fast kernel and the diagnostics.
+//! The membership test (moon2013flash, Eq. 2), shared by the twins, the fast kernel and the diagnostics.
 
 use std::borrow::Cow;
 
@@ -16,6 +16,7 @@ pub(super) const EVERYTHING: f32 = 1e38;
 /// |v_q| ≤ |v_p| + δ it implies δ ≤ (τ + 4·eps·|v_p|)·(1 + 4·eps), to first order in eps. That bound depends on the
 /// centre pixel alone, and the reverse holds up to a factor 1 + 4·eps. It is what this returns: the same test up to
 /// one part in 2 million of the threshold, at a third of the arithmetic. `tolerance` = τ ≥ 0, `center` = v_p.
+/// The allowance is ours: equal values that differ by rounding stay equal.
 pub fn half_width(tolerance: f32, center: f32) -> f32 {
     const ALLOWANCE: f32 = 4.0 * f32::EPSILON;
     ((tolerance + ALLOWANCE * center.abs()) * (1.0 + ALLOWANCE)).min(EVERYTHING)

@@ -1,18 +1,21 @@
-//! The virtual-flash filter of moon2013flash: a mean over homogeneous pixels, weighted by distance in the image and
-//! by likeness of the flash image.
+//! The virtual-flash filter of moon2013flash (Sec. 3.2 and 3.3): a mean over homogeneous pixels, weighted by distance in the
+//! image and by likeness of the flash image.
 //!
 //! For each pixel p, with x̄ the source, F the guide, Ω_p the window clipped to the image:
 //!
 //! ```text
-//! H(p)   = { q ∈ Ω_p : |x̄_q − x̄_p| ≤ τ_p + 4·eps·max(|x̄_p|, |x̄_q|) }          τ_p = t·s_p/√n_p
-//! d²     = Σ_j G(j) · ⅓ Σ_c (F_c(p+j) − F_c(q+j))²                              Σ_j G(j) = 1
-//! σ_r²   = min(σ_r²(p), σ_r²(q))
-//! w(p,q) = exp(−|p−q|²/(2σ_s²)) · exp(−d²/(2σ_r²))
-//! D_p    = x̄_p + Σ_{q∈H(p)} w(p,q)·(x̄_q − x̄_p) / Σ_{q∈H(p)} w(p,q)
+//! Eq. 2            H(p)   = { q ∈ Ω_p : |x̄_q − x̄_p| ≤ τ_p + 4·eps·max(|x̄_p|, |x̄_q|) }          τ_p = t·s_p/√n_p
+//! Sec. 3.2         d²     = Σ_j G(j) · ⅓ Σ_c (F_c(p+j) − F_c(q+j))²                              Σ_j G(j) = 1
+//! ours             σ_r²   = min(σ_r²(p), σ_r²(q))
+//! Eq. 1, g_s, g_r  w(p,q) = exp(−|p−q|²/(2σ_s²)) · exp(−d²/(2σ_r²))
+//! Eq. 1            D_p    = x̄_p + Σ_{q∈H(p)} w(p,q)·(x̄_q − x̄_p) / Σ_{q∈H(p)} w(p,q)
 //! ```
 //!
+//! Eq. 1 is printed as the weighted sum over k(p), the sum of the weights: the same, but for its rounding. Ours are the third
+//! of the channels in d² and the allowance for rounding in H(p).
+//!
 //! p is always in H(p) with weight 1. Patch taps outside the image read the mirrored pixel (index −i reads i).
-//! Whatever the input, |D_c(p) − x̄_c(p)| ≤ τ_c(p) up to rounding, in every pixel and in every channel that is
+//! Whatever the input, |D_c(p) − x̄_c(p)| ≤ τ_c(p) (App. A, Eq. 6) up to rounding, in every pixel and in every channel that is
 //! tested: all three for [`Membership::Joint`] and [`Membership::PerChannel`], luminance alone for
 //! [`Membership::Luminance`].
 

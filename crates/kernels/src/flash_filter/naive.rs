@@ -1,7 +1,8 @@
 //! The filter as nested loops: in `f64` the oracle of the tests, in `f32` the baseline of speed ratios.
 //!
 //! Both use one thread. The membership test is the shared `f32` expression in both, so that a neighbour on the
-//! very edge of the interval is judged alike; all else is in the precision that the name says.
+//! very edge of the interval is judged alike; all else is in the precision that the name says. Sections and equations are
+//! those of moon2013flash.
 
 use super::members::Tests;
 use super::{Carried, Filtered, FlashFilterError, FlashInputs, FlashParams};
@@ -30,12 +31,13 @@ macro_rules! naive_twin {
                 Self { params, inputs, spatial, patch }
             }
 
-            /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1.
+            /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1: g_s·g_r of Eq. 1.
             #[inline]
             pub fn weight(&self, (px, py): (isize, isize), (qx, qy): (isize, isize)) -> $real {
                 let (w, h) = (self.params.width, self.params.height);
                 let offset = ((qx - px).pow(2) + (qy - py).pow(2)) as $real;
                 let Some(guide) = self.inputs.guide else { return (-offset * self.spatial).exp() };
+                // Sec. 3.2: weighted squared distance of the patches u(F_p) and u(F_q).
                 let f = self.params.patch.radius() as isize;
                 let mut distance = 0.0;
                 let mut taps = self.patch.iter();
@@ -52,6 +54,7 @@ macro_rules! naive_twin {
                     }
                 }
                 if distance.is_finite() {
+                    // The smaller σ_r² of the pair is ours, as Sec. 4 asks for proportionality and no more.
                     let sigma_r2 = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
                     let pair = sigma_r2(px, py).min(sigma_r2(qx, qy));
                     (-offset * self.spatial - distance / 3.0 / (2.0 * pair)).exp()
@@ -74,7 +77,7 @@ macro_rules! naive_twin {
             Ok($sums(params, inputs, None).image)
         }
 
-        /// The loop itself, on checked inputs.
+        /// The loop itself, on checked inputs: Eq. 1 over the set of Eq. 2.
         fn $sums(
             params: &FlashParams,
             inputs: &FlashInputs<'_>,
@@ -92,6 +95,7 @@ macro_rules! naive_twin {
                 for qy in (py - r).max(0)..=(py + r).min(h - 1) {
                     for qx in (px - r).max(0)..=(px + r).min(w - 1) {
                         let q = (qy * w + qx) as usize;
+                        // Eq. 2.
                         let members = tests.members(p, q);
                         if members == [false; 3] {
                             continue;
@@ -107,7 +111,7 @@ macro_rules! naive_twin {
                     }
                 }
                 for c in 0..3 {
-                    // The pixel itself has weight exp(0) = 1, so the sum of weights is at least 1.
+                    // Eq. 1. The pixel itself has weight exp(0) = 1, so k(p), the sum of weights, is at least 1.
                     out.image[c].push(inputs.source[c][p] as $real + sum[c] / total[c]);
                     if carried.is_some() {
                         out.carried[c].push(other[c] / if squared { total[c] * total[c] } else { total[c] });

@@ -1,4 +1,4 @@
-//! Parameters and input planes of the flash filter, and the check that both make sense.
+//! Parameters and input planes of the flash filter, and the check that both make sense. All limits are ours.
 
 use super::FlashFilterError;
 use crate::tiles::first_bad;
@@ -20,7 +20,7 @@ pub struct FlashParams {
     /// Image height in pixels, at least 1.
     pub height: usize,
     /// Window radius r in pixels: the window has (2r+1)² pixels and is clipped at the image border.
-    /// 0 to [`MAX_WINDOW_RADIUS`]; moon2013flash uses 3, then 15.
+    /// 0 to [`MAX_WINDOW_RADIUS`]; moon2013flash uses 3, then 15 (Sec. 3.5).
     pub window_radius: usize,
     /// Standard deviation σ_s of the spatial Gaussian in pixels, greater than 0; infinity switches it off.
     pub spatial_sigma: f32,
@@ -28,7 +28,7 @@ pub struct FlashParams {
     pub patch: PatchWeights,
 }
 
-/// Separable, symmetric, normalised patch weights: G(i, j) = g(|i|)·g(|j|), Σ G = 1.
+/// Separable, symmetric, normalised patch weights (moon2013flash, Sec. 3.2): G(i, j) = g(|i|)·g(|j|), Σ G = 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PatchWeights {
     radius: usize,
@@ -86,7 +86,7 @@ impl PatchWeights {
     }
 }
 
-/// Which neighbours q may contribute to pixel p. A pixel always belongs to its own set.
+/// Which neighbours q may contribute to pixel p (moon2013flash, Eq. 2). A pixel always belongs to its own set.
 ///
 /// The half-widths are confidence-interval half-widths t·s_p/√n_p at the *centre* pixel p: at least 0, and
 /// infinity lets every neighbour pass. A neighbour passes a test on the values v if

@@ -305,7 +305,7 @@ impl Job<'_> {
                 let center =
                     &view.source[c * source.plane + source.origin() + j * source.pitch..][..tile.width];
                 for (i, value) in row.iter_mut().enumerate() {
-                    // The pixel itself has weight 1, so the weight sum is at least 1. Its own step of 0 also keeps
+                    // Eq. 1. The pixel itself has weight 1, so the weight sum is at least 1. Its own step of 0 also keeps
                     // the mean step a relative 1/n below the largest of n steps, hence below the half-width, by
                     // more than rounding can add: no clamp is needed to honour the bound.
                     *value = center[i] + sums[i] / weights[i];

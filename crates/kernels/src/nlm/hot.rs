@@ -213,7 +213,7 @@ unsafe fn sized<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block)
     }
 }
 
-/// Σ_c Δ²_c for `N` neighbouring offsets.
+/// Σ_c Δ²_c for `N` neighbouring offsets (rousselle2013rdfc, Sec. 4).
 ///
 /// # Safety
 /// As [`pass`].
@@ -249,7 +249,7 @@ unsafe fn base<S: Simd>(vp: S::F, constants: &Constants) -> S::F {
     unsafe { S::fma(vp, S::splat(constants.first_again), S::add(vp, S::splat(constants.epsilon))) }
 }
 
-/// Δ² of a difference; `base` is that of the pair's first pixel.
+/// Δ² (rousselle2013rdfc, Sec. 4) of a difference; `base` is that of the pair's first pixel.
 ///
 /// # Safety
 /// The instruction set is available.
@@ -339,7 +339,7 @@ unsafe fn patch_columns<S: Simd, const BIG: usize, const SMALL: usize, const N: 
     }
 }
 
-/// Horizontal patch sum of radius `PATCH` around `from + PATCH`, from the vertical sums.
+/// Horizontal patch sum of radius `PATCH`, which makes d² of Eq. 2, around `from + PATCH`, from the vertical sums.
 ///
 /// # Safety
 /// As [`pass`], with 2·`LANES` values at `from`.
@@ -429,7 +429,7 @@ unsafe fn vector<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block
     }
 }
 
-/// Exponents of 2 of the feature weights for both τ, at most 0; far below outside the image and for offsets that do
+/// Exponents of 2 of the feature weights (Eq. 3) for both τ, at most 0; far below outside the image and for offsets that do
 /// not count.
 ///
 /// # Safety
@@ -458,7 +458,7 @@ unsafe fn limits<S: Simd, const G: usize>(tile: &mut TileView<'_>, block: &Block
     }
 }
 
-/// Lowers the limits to what each feature allows, for `FLOORS` different τ.
+/// Lowers the limits to what each feature allows (Φ² of rousselle2013rdfc, Sec. 5), for `FLOORS` different τ.
 ///
 /// # Safety
 /// As [`pass`].
@@ -621,7 +621,7 @@ unsafe fn weight<S: Simd>(exponent: S::F) -> S::F {
     }
 }
 
-/// One pass's weights of the block, and what they add to its sums.
+/// One pass's weights of the block (Eq. 4: the lower exponent of Eq. 2 and Eq. 3), and what they add to its sums (Eq. 1).
 ///
 /// # Safety
 /// As [`pass`].

@@ -1,24 +1,27 @@
-//! Joint non-local means with known variances: the filter that rousselle2013rdfc builds everything from (Sec. 4), and
-//! without features that of its predecessor for colour alone.
+//! Joint non-local means with known variances: the filter that rousselle2013rdfc builds everything from (Eq. 1 to Eq. 4;
+//! `flt` of its Sec. 7), and without features that of its predecessor for colour alone.
 //!
 //! For pixel p and its neighbours q in the window, clipped to the image, with guide g of variance v (C channels),
 //! features f_j of variance v_j and spread s_j:
 //!
 //! ```text
-//! Δ²_c(p,q) = ((g_c(p) − g_c(q))² − κ·(v_c(p) + min(v_c(p), v_c(q)))) / (ε + k²·(v_c(p) + v_c(q))),  at most 1e4
-//! d²(p,q)   = mean over channels and the (2f+1)² taps n of Δ²_c(p+n, q+n)
-//! Φ²_j(p,q) = mean over channels of ((f_j(p) − f_j(q))² − (v_j(p) + min(v_j(p), v_j(q)))) / (k_f²·D_j(p)),  D = max(τ, s)
-//! w(p,q)    = exp(−max(0, d², Φ²_1, Φ²_2, …))
-//! F(p)      = Σ_q w(p,q)·u(q) / Σ_q w(p,q)
+//! Sec. 4         Δ²_c(p,q) = ((g_c(p) − g_c(q))² − κ·(v_c(p) + min(v_c(p), v_c(q)))) / (ε + k²·(v_c(p) + v_c(q))),  at most 1e4
+//! Sec. 4         d²(p,q)   = mean over channels and the (2f+1)² taps n of Δ²_c(p+n, q+n)
+//! Sec. 4, Eq. 2  w_c(p,q)  = exp(−max(0, d²))
+//! Sec. 5         Φ²_j(p,q) = mean over channels of ((f_j(p) − f_j(q))² − (v_j(p) + min(v_j(p), v_j(q)))) / (k_f²·D_j(p)),  D = max(τ, s)
+//! Sec. 5, Eq. 3  w_f(p,q)  = exp(−max(0, Φ²_1, Φ²_2, …))
+//! Sec. 6, Eq. 4  w(p,q)    = min(w_c, w_f) = exp(−max(0, d², Φ²_1, Φ²_2, …))
+//! Sec. 3, Eq. 1  F(p)      = Σ_q w(p,q)·u(q) / Σ_q w(p,q)
 //! ```
 //!
-//! Both denominators have a second form, see [`GuideDenominator`] and [`Denominator`]. exp(−max(a, b)) is the minimum of both weights. w(p,p) = 1, so the sum is at least 1. Taps outside the image read
-//! the mirrored pixel (index −i reads i). Any number of planes u is filtered with the same weights; one sweep over the
+//! Ours: κ, which is 1 in the text; the limit of Δ²; the 0 in w_f, without which weights exceed 1; the mean over the channels of
+//! a feature, as in the authors' program. Both denominators have a second form, see [`GuideDenominator`] and [`Denominator`].
+//! w(p,p) = 1, so the sum is at least 1. Taps outside the image read the mirrored pixel (index −i reads i). Any number of planes u is filtered with the same weights; one sweep over the
 //! window serves several [`Pass`]es, which differ in patch and τ and share the rest. Frames beside the target widen
 //! the window in time.
 //!
 //! With a [`Perturbation`] a pass also gives the derivative of the filtered guide by the guide's own value at p, as a
-//! finite difference: what Stein's unbiased risk estimate needs.
+//! finite difference: what Stein's unbiased risk estimate needs (Sec. 6, below Eq. 5).
 
 mod error;
 mod hot;

@@ -1,15 +1,16 @@
 //! The engine as nested loops: in `f64` the oracle of the tests, in `f32` the baseline of speed ratios.
 //!
-//! Both use one thread, compute every patch distance from its pixels, and every derivative as the formula says.
+//! Both use one thread, compute every patch distance from its pixels, and every derivative as the formula says. Sections and
+//! equations are those of rousselle2013rdfc.
 
 use super::{
     Center, Denominator, Filtered, GuideDenominator, NlmError, NlmInputs, NlmParams, Pass, Planes, Rule,
 };
 use crate::mirror::mirror;
 
-/// Usual ε of Δ².
+/// Usual ε of Δ² (Sec. 4, which prints no number): the authors' program's.
 pub(super) const EPSILON: f32 = 1e-10;
-/// Largest Δ² of one pixel pair and channel.
+/// Largest Δ² of one pixel pair and channel; ours: without variance Δ² would reach 1/ε and leave no digits for the others.
 pub(super) const LARGEST: f32 = 1e4;
 
 /// Column and row, or an offset of both.
@@ -29,7 +30,7 @@ macro_rules! naive_twin {
                 mirror(y, self.params.height) * self.params.width + mirror(x, self.params.width)
             }
 
-            /// Δ²_c of two pixels of guide channel `c`, one moved by `moved` (p's and q's share).
+            /// Sec. 4: Δ²_c of two pixels of guide channel `c`, one moved by `moved` (p's and q's share).
             fn square(&self, c: usize, (p, q): (At, At), there: &Planes<'_>, moved: ($real, $real)) -> $real {
                 let (a, b) = (&self.inputs.frame.guide[c], &there.guide[c]);
                 let (i, j) = (self.index(p), self.index(q));
@@ -44,7 +45,7 @@ macro_rules! naive_twin {
                 ((d * d - noise) / (self.params.epsilon as $real + k * k * both)).min(LARGEST as $real)
             }
 
-            /// d² of the patches around `p` and `q`, with the guide's channel c at p moved by `step[c]` under `rule`.
+            /// Sec. 4: d² of the patches around `p` and `q`, the exponent of Eq. 2, with the guide's channel c at p moved by `step[c]` under `rule`.
             fn patch(
                 &self,
                 (p, q): (At, At),
@@ -70,7 +71,7 @@ macro_rules! naive_twin {
                 sum / (channels as $real * ((2 * f + 1) * (2 * f + 1)) as $real)
             }
 
-            /// Largest Φ² of all features, −∞ without any.
+            /// Sec. 5: largest Φ² of all features, the exponent of Eq. 3; −∞ without any.
             fn features(&self, p: usize, q: usize, there: &Planes<'_>) -> $real {
                 let (k, floor) = (self.params.feature_k as $real, self.pass.floor as $real);
                 let mut largest = $real::NEG_INFINITY;
@@ -90,7 +91,7 @@ macro_rules! naive_twin {
                 largest
             }
 
-            /// Weights of all neighbours of `p` in all frames but its own, and its own.
+            /// Weights of all neighbours of `p` in all frames (Sec. 8), and its own (the text has 1).
             fn weights(&self, p: At, step: [$real; 3], rule: Rule) -> (Vec<(usize, usize, $real)>, $real) {
                 let (w, h) = (self.params.width as isize, self.params.height as isize);
                 let r = self.params.window_radius as isize;
@@ -103,6 +104,7 @@ macro_rules! naive_twin {
                                 continue;
                             }
                             let q = self.index((x, y));
+                            // The larger exponent is the smaller weight: Eq. 4 of Eq. 2 and Eq. 3.
                             let d2 = self.patch((p, (x, y)), there, t == 0, step, rule);
                             let d2 = d2.max(self.features(self.index(p), q, there)).max(0.0);
                             weights.push((t, q, (-d2).exp()));
@@ -118,7 +120,7 @@ macro_rules! naive_twin {
                 (weights, center)
             }
 
-            /// Σ w·(value − value at p)/Σ w + value at p.
+            /// Eq. 1 as Σ w·(value − value at p)/Σ w + value at p, which keeps constants to the bit.
             fn mean(
                 &self,
                 (weights, center): &(Vec<(usize, usize, $real)>, $real),
@@ -158,6 +160,7 @@ macro_rules! naive_twin {
                         plane.push(self.mean(&weights, center, |t, q| frames[t].targets[k][q] as $real));
                     }
                     for (c, plane) in out.derivative.iter_mut().enumerate() {
+                        // Sec. 6, below Eq. 5: (F at u + δ − F at u)/δ.
                         let (Some(_), Some(perturbation)) = (self.pass.patch, &self.inputs.perturbation) else {
                             plane.push(share);
                             continue;

@@ -1,4 +1,4 @@
-//! Parameters and input planes of the engine, and the check that both make sense.
+//! Parameters and input planes of the engine, and the check that both make sense. All limits are ours.
 
 use super::NlmError;
 use super::naive::EPSILON;
@@ -50,7 +50,7 @@ pub struct NlmParams {
     /// Denominator of Δ².
     pub guide_denominator: GuideDenominator,
     /// ε: what denominators of Δ² are at least, a variance; [`MIN_EPSILON`] to [`MAX_EPSILON`]. Guides whose values are
-    /// of order 1 have 1e-10 in rousselle2013rdfc; what is added to variances must scale with them.
+    /// of order 1 have 1e-10 in the program of rousselle2013rdfc; what is added to variances must scale with them.
     pub epsilon: f32,
     /// k_f: damping of feature distances, [`MIN_K`] to [`MAX_K`].
     pub feature_k: f32,
@@ -73,7 +73,7 @@ pub enum GuideDenominator {
 /// Denominator of Φ²_j: which pixels' D = max(τ, s) it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Denominator {
-    /// k_f²·D(p), as printed in rousselle2013rdfc, Eq. 6.
+    /// k_f²·D(p), as printed in rousselle2013rdfc, Sec. 5, above Eq. 3.
     Center,
     /// k_f²·(D(p) + D(q)), as in the authors' program.
     Pair,
@@ -184,7 +184,8 @@ pub struct Filtered<T = f32> {
 }
 
 impl NlmParams {
-    /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, k_f = 0.6, the printed denominators, centre weight 1.
+    /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, the printed denominators, centre weight 1; k_f = 0.6 as in
+    /// rousselle2013rdfc, Alg. 1, lines 9, 11 and 13.
     #[must_use]
     pub fn new(width: usize, height: usize, window_radius: usize, k: f32) -> Self {
         Self {

@@ -1,5 +1,6 @@
 //! The method from outside: limiting cases, statistics with known truth, and what must change nothing.
 
+mod citations;
 mod common;
 mod hard;
 mod limits;

@@ -130,14 +130,13 @@ fn every_spread_of_step_two_denoises_and_those_within_the_raw_one_claim_a_proven
 fn second_variance(f: &Frame, params: &Params) -> Image {
     let tested = spread::tested_variance(f, params).unwrap();
     let along = spread::Along::new(f, params, Some(&tested)).unwrap();
-    let method = VirtualFlash::new(params.clone()).unwrap();
     let step = &params.steps().unwrap()[0];
     let tolerance =
         tolerance::Tolerance::new(params, Some(tested.clone().into_owned()), &f.samples, step.level);
     let patch = noisefloor_kernels::flash_filter::PatchWeights::gaussian(2, 1.25).unwrap();
     let guide = guide::Guide::new(f, params, &patch);
-    let inputs = method::inputs(&f.color.mean, guide.as_ref(), &tolerance);
-    let (_, sums) = method.step(f, step, &inputs, Some(&along)).unwrap();
+    let inputs = crate::filter::inputs(&f.color.mean, guide.as_ref(), &tolerance);
+    let (_, sums) = crate::filter::step(f, step, &patch, &inputs, Some(&along)).unwrap();
     along.variance(sums.unwrap(), params.second_spread, &f.samples)
 }
 
