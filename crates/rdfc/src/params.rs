@@ -166,7 +166,7 @@ parameters! {
         /// What counts as 1 of depth: the largest value or the 99th percentile.
         depth_range: Option<DepthRange> = None, choice::<DepthRange>().or_null();
         /// Whose variance and gradient divide Φ².
-        feature_denominator: Option<FeatureDenominator> = None, choice::<FeatureDenominator>().or_null().section("Eq. 6");
+        feature_denominator: Option<FeatureDenominator> = None, choice::<FeatureDenominator>().or_null().section("Sec. 5");
         /// Weight of a pixel in its own mean.
         center_weight: Option<CenterWeight> = None, choice::<CenterWeight>().or_null();
         /// Finite difference in SURE.
@@ -174,7 +174,7 @@ parameters! {
         /// SECOND or THIRD where their estimates are equal.
         ties: Option<Ties> = None, choice::<Ties>().or_null();
         /// Filter after the combination.
-        second_pass: Option<SecondPass> = None, choice::<SecondPass>().or_null().section("Alg. 1, lines 28, 29");
+        second_pass: Option<SecondPass> = None, choice::<SecondPass>().or_null().section("Alg. 1, lines 27-29");
         /// Whose variance divides differences of the colour in the second pass.
         second_pass_denominator: Option<ColorDenominator> = None, choice::<ColorDenominator>().or_null().section("Sec. 4");
         /// Patch radius of the filters of error estimates and selection maps.
