@@ -43,6 +43,8 @@ pub enum Verb {
     Convert(Convert),
     /// Make the analysis and the report again from kept records and images, running nothing
     Report(Report),
+    /// Write the tables and charts of a study as files: CSV, JSON, LaTeX and Markdown; SVG, PNG and PDF
+    Export(Export),
     /// Record a study for a repository: its numbers without images, and a README with its tables and plots
     Record(Record),
     /// List the denoising methods with their parameters, or show one with its page
@@ -308,6 +310,20 @@ pub struct Report {
     /// Largest size of the images embedded in the page, in MB
     #[arg(long, value_name = "MB", default_value_t = 10.0)]
     pub viewer_budget: f64,
+}
+
+/// `noisefloor export`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  noisefloor export noisefloor-results/quick                  into noisefloor-results/quick/export\n  \
+    noisefloor export reports/rdfc-fig06 --out paper/figures    from a recorded study\n\n\
+    tables/ID.csv has numbers without rounding, with the ends of their intervals in columns of their own; .json the same with \
+    the texts of the page; .tex a booktabs tabular; .md a pipe table. charts/ID.svg, .png and .pdf are the plots of the page.")]
+pub struct Export {
+    /// Folder of a study that was run, or a recording
+    pub dir: PathBuf,
+    /// Folder to write `tables` and `charts` into [default: DIR/export]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 /// `noisefloor record`.

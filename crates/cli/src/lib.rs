@@ -9,6 +9,7 @@ mod context;
 mod convert;
 mod denoise;
 mod exit;
+mod export;
 mod input;
 mod interrupt;
 mod memory;
@@ -52,6 +53,7 @@ pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode 
         args::Verb::Compare(verb) => compare::run(&verb),
         args::Verb::Convert(verb) => convert::run(&verb),
         args::Verb::Report(verb) => report::run(&verb),
+        args::Verb::Export(verb) => export::run(&verb),
         args::Verb::Record(verb) => record::run(&verb),
         args::Verb::Methods(verb) => methods::run(&context, &verb),
         args::Verb::Scenes(verb) => scenes::run(&verb),

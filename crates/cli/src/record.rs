@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use anyhow::bail;
+use noisefloor_questions::{Asked, Block, document, readme_table};
+use noisefloor_study::exhibit::Document;
 
 use crate::args::Record;
 use crate::exit::Exit;
@@ -18,7 +20,18 @@ pub fn run(args: &Record) -> anyhow::Result<Exit> {
     let with_images = noisefloor_harness::analysis_of(&args.dir)?;
     noisefloor_harness::record_study(&args.dir, &args.to)?;
     let summary = noisefloor_harness::analysis_of(&args.to)?;
-    let made = noisefloor_report::write_recording(&args.to, &summary, (&args.dir, &with_images))?;
+    // A panel is of the images of the study; the numbers are those of the recording.
+    let recording = document(&summary);
+    let shown = Document { gallery: document(&with_images).gallery, ..recording };
+    let made = noisefloor_report::write_recording(&args.to, &shown, Some(&args.dir), &|directive| {
+        let asked = Asked { kind: directive.kind.clone(), keys: directive.keys.clone() };
+        let markdown = |block: Block| match block {
+            Block::Text(text) => text,
+            Block::Table(table) => noisefloor_report::markdown(&table),
+        };
+        let blocks = readme_table(&summary, &asked)?.into_iter().map(markdown);
+        Ok(blocks.map(|block| block.trim_end().to_owned()).collect::<Vec<_>>().join("\n\n"))
+    })?;
     for name in &made.absent {
         note!("noisefloor: {} shows plots/{name}.svg, which the study does not have", made.readme.display());
     }

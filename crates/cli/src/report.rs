@@ -22,7 +22,8 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
         .map_err(|error| way_out(error, args.out.is_none()))?;
     let options =
         ReportOptions { image_budget_bytes: (args.viewer_budget * 1e6) as usize, ..ReportOptions::default() };
-    let files = noisefloor_report::write_report_into(&args.dir, out, &summary, &options)?;
+    let document = noisefloor_questions::document(&summary);
+    let files = noisefloor_report::write_report_into(&args.dir, out, &document, &options)?;
     if summary.recorded {
         say!(Out::Stdout, "images are not kept in a recorded study; `{}` makes them", summary.study.command)?;
     }

@@ -52,7 +52,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     let ended = noisefloor_harness::run(&request);
     watcher.finish();
     let summary = ended.map_err(|error| watcher.explain(error, &out))?;
-    let files = noisefloor_report::write_report(&out, &summary)?;
+    let files = noisefloor_report::write_report(&out, &noisefloor_questions::document(&summary))?;
     let shown = show(args, &summary, &files);
     fail_on_violations(&summary)?;
     shown?;
