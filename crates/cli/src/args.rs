@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Parser, Subcommand};
+use noisefloor_metrics::Metric;
 
 use crate::exit;
 
@@ -263,6 +264,9 @@ pub struct Compare {
     pub images: Vec<PathBuf>,
     /// Reference; its own noise is taken out where it carries halves or a variance
     pub reference: PathBuf,
+    /// Measure this too, beside what is always measured; may be given several times
+    #[arg(long = "metric", value_name = "ID", value_parser = noisefloor_metrics::metric)]
+    pub metrics: Vec<&'static Metric>,
     /// Write maps of the relative error into this folder, as IMAGE-STEM.error.png: viridis, one range for all images
     #[arg(long, value_name = "DIR")]
     pub maps: Option<PathBuf>,

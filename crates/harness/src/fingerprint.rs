@@ -8,7 +8,7 @@ use noisefloor_frame::{Counts, Estimate, Flash, Frame, Image};
 
 use crate::cache::Key;
 
-pub(crate) use measuring::measuring;
+pub(crate) use measuring::{measuring, measuring_of};
 pub(crate) use method::{Fingerprints, attempt};
 
 /// Collects the bits of results. Everything is preceded by its length or shape, so that nothing can be mistaken for

@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cache::{Key, key_of};
 use crate::error::{HarnessError, Place};
-use crate::fingerprint::{Fingerprints, measuring};
+use crate::fingerprint::{Fingerprints, measuring, measuring_of};
 use crate::record::RECORD_SCHEMA;
 use crate::source::{FrameSpec, Scene};
 use crate::study::{RowFrames, SceneSpec, Study};
@@ -76,6 +76,14 @@ impl Plan {
         // Cells without neighbouring frames keep the keys that they had when there were none.
         if !beside.is_empty() {
             all["beside"] = json!(beside);
+        }
+        // Nor does a metric change the keys of studies that do not list it, unless it is always measured.
+        let asked: BTreeMap<&str, Key> = crate::metric::asked(&study.metrics)
+            .iter()
+            .map(|metric| (metric.id, measuring_of(metric)))
+            .collect();
+        if !asked.is_empty() {
+            all["metrics"] = json!(asked);
         }
         key_of(&all)
     }

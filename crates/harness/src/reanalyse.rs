@@ -78,7 +78,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
             let whole = |record: &&mut Record| {
                 record.scene == scene.id && !record.image.as_ref().is_some_and(|path| damaged.contains(path))
             };
-            measure_again(dir, scene, all.iter_mut().filter(whole))?;
+            measure_again(dir, &study, scene, all.iter_mut().filter(whole))?;
         }
         if here {
             replace(&layout, &all)?;
@@ -170,6 +170,7 @@ fn same_folder(a: &Path, b: &Path) -> bool {
 
 fn measure_again<'a>(
     dir: &Path,
+    study: &Study,
     scene: &SceneContext,
     records: impl Iterator<Item = &'a mut Record>,
 ) -> Result<(), HarnessError> {
@@ -185,6 +186,7 @@ fn measure_again<'a>(
     let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
     let wrong = |source| HarnessError::Metric { scene: scene.id.clone(), source };
     let measurer = Measurer::new(&reference, Some(map)).map_err(wrong)?;
+    let measurer = measurer.with(&crate::metric::asked(&study.metrics));
     let lacks_parts = reference.parts.len() < scene.reference.parts as usize;
     for record in records {
         let Some(relative) = &record.image else { continue };

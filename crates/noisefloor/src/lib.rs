@@ -28,6 +28,10 @@
 //!
 //! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims. What is known only at
 //! run time implements [`Factory`] itself.
+//!
+//! # Bring a metric
+//!
+//! [`metrics::add`] before [`main_with`]: a study that lists its id gets it, and so does `noisefloor compare --metric ID`.
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{

@@ -55,7 +55,7 @@ impl Runner<'_> {
             self.request.observer.warning(&text);
         }
         let (truth, mut context) = truth(scene, self.cache, self.layout, self.request.observer)?;
-        let measurer = truth.measurer(scene)?;
+        let measurer = truth.measurer(scene)?.with(&crate::metric::asked(&study.metrics));
         let mut inputs = Inputs::open(scene, self.layout, &truth.reference, &mut context);
         for (spec, rows) in work {
             self.request.observer.stage(&Stage::Frame {
