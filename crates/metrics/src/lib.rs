@@ -25,6 +25,7 @@
 mod bootstrap;
 mod contribution;
 mod error;
+mod flip;
 mod influence;
 mod map;
 mod measurer;

@@ -1,7 +1,7 @@
 use std::sync::RwLock;
 
 use crate::pixels::{Pixels, mean};
-use crate::{MetricError, rules};
+use crate::{MetricError, flip, rules};
 
 /// ε of the relative metrics, squared radiance.
 pub const EPSILON: f64 = 0.01;
@@ -191,7 +191,18 @@ pub const METRICS: &[Metric] = &[
 ];
 
 /// Metrics that are measured where somebody asks for them.
-pub const ON_REQUEST: &[Metric] = &[];
+pub const ON_REQUEST: &[Metric] = &[Metric {
+    non_finite: "a pixel with a NaN or infinite channel is counted and left out; its neighbours see the reference there",
+    ..Metric::new(
+        "hdr_flip",
+        "HDR-FLIP",
+        "HDR-FLIP (Andersson et al. 2021, version 1.7): the largest LDR-FLIP of each pixel over exposures of max(x,0) and \
+         max(r,0), 67.02 pixels per degree, ACES tone curve; as many exposures as there are stops, rounded up and at \
+         least 2, evenly from that which puts the largest luminance of r at 85 % of the display to that which puts the \
+         median there; no value where no channel of r exceeds 1e-6",
+        Rule::Map(flip::hdr_flip_map),
+    )
+}];
 
 /// Metrics that this program does not have by itself.
 static ADDED: RwLock<Vec<&'static Metric>> = RwLock::new(Vec::new());
