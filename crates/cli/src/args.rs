@@ -336,7 +336,7 @@ pub struct Record {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  noisefloor methods\n  noisefloor methods rdfc      one method with its page\n  \
-    noisefloor methods --json"
+    noisefloor methods --json\n  noisefloor methods --bibtex > methods.bib"
 )]
 pub struct List {
     /// One method: everything about it, with its page
@@ -344,6 +344,9 @@ pub struct List {
     /// Print a JSON array of objects with `id`, or one object for one method
     #[arg(long)]
     pub json: bool,
+    /// Print the sources of all methods, or that of one, as BibTeX in UTF-8
+    #[arg(long, conflicts_with = "json")]
+    pub bibtex: bool,
 }
 
 /// `noisefloor scenes`.

@@ -36,9 +36,9 @@
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
     Adaptive, Alternative, Bound, BuildError, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser,
-    Diagnostic, Diagnostics, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard, Need,
-    NoParams, Output, Param, ParamError, Parameters, Registry, Setting, StageSeconds, StageTimer, Unit,
-    choices, method, parameters,
+    Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard,
+    Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting, StageSeconds,
+    StageTimer, Unit, choices, method, parameters,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,
