@@ -1,13 +1,4 @@
-//! Study files to plan to cells to records to analysis, resumable at every stage.
-//!
-//! The harness is *handed* the registry and names no method but the baseline `mc`. Everything that a report needs is in
-//! the [`record`]s and the [`summary`]; a report never runs anything.
-//!
-//! * A [`Study`] is a file: scenes, samples per pixel, replicates, rows of methods, metrics.
-//! * [`run`] plans it, renders or imports its frames, denoises, measures, appends one [`record::Record`] per finished
-//!   cell,
-//!   and analyses. Called again it continues.
-//! * [`reanalyse`] makes the [`summary::Summary`] again from what a study's folder keeps.
+#![doc = include_str!("../README.md")]
 
 mod analysis;
 mod cache;
