@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use clap::{Parser, Subcommand};
+use noisefloor_metrics::Metric;
 
 use crate::exit;
 
@@ -265,6 +266,9 @@ pub struct Compare {
     pub images: Vec<PathBuf>,
     /// Reference; its own noise is taken out where it carries halves or a variance
     pub reference: PathBuf,
+    /// Measure this too, beside what is always measured; may be given several times
+    #[arg(long = "metric", value_name = "ID", value_parser = noisefloor_metrics::metric)]
+    pub metrics: Vec<&'static Metric>,
     /// Write maps of the relative error into this folder, as IMAGE-STEM.error.png: viridis, one range for all images
     #[arg(long, value_name = "DIR")]
     pub maps: Option<PathBuf>,
@@ -348,7 +352,7 @@ pub struct Record {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  noisefloor methods\n  noisefloor methods rdfc      one method with its page\n  \
-    noisefloor methods --json"
+    noisefloor methods --json\n  noisefloor methods --bibtex > methods.bib"
 )]
 pub struct List {
     /// One method: everything about it, with its page
@@ -356,6 +360,9 @@ pub struct List {
     /// Print a JSON array of objects with `id`, or one object for one method
     #[arg(long)]
     pub json: bool,
+    /// Print the sources of all methods, or that of one, as BibTeX in UTF-8
+    #[arg(long, conflicts_with = "json")]
+    pub bibtex: bool,
 }
 
 /// `noisefloor scenes`.

@@ -66,6 +66,7 @@ pub fn run(args: &Compare) -> anyhow::Result<Exit> {
     let name = args.reference.display().to_string();
     let of_reference: Vec<Finding> = found.into_iter().map(|finding| finding.within(&name)).collect();
     let measurer = Measurer::new(&reference, None).with_context(|| args.reference.display().to_string())?;
+    let measurer = measurer.with(&args.metrics);
     let against = Against::new(&reference, pair.reference.spp);
     let mut all = Vec::new();
     for path in &args.images {

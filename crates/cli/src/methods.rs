@@ -1,5 +1,7 @@
 //! `noisefloor methods`.
 
+use std::collections::BTreeSet;
+
 use noisefloor_denoiser::{Factory, Guarded, Method, MethodCard, Need, Param};
 use serde_json::{Map, Value, json};
 
@@ -9,6 +11,9 @@ use crate::exit::{Exit, usage};
 use crate::out::{Out, say};
 
 pub fn run(context: &Context, args: &List) -> anyhow::Result<Exit> {
+    if args.bibtex {
+        return bibtex(context, args.id.as_deref());
+    }
     if let Some(id) = &args.id {
         return one(context, id, args.json);
     }
@@ -33,15 +38,38 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<Exit> {
     Ok(Exit::Done)
 }
 
+/// The sources of all methods or of one, each once. What has no entry is a comment: BibTeX skips text between entries.
+fn bibtex(context: &Context, id: Option<&str>) -> anyhow::Result<Exit> {
+    let factories = match id {
+        Some(id) => vec![find(context, id)?],
+        None => context.registry.factories().iter().map(AsRef::as_ref).collect(),
+    };
+    let mut printed = BTreeSet::new();
+    for factory in factories.into_iter().filter(|factory| factory.ready()) {
+        let citation = context.registry.build(factory.id(), &Map::new())?.denoiser.card().citation;
+        if printed.insert(citation.key.clone()) {
+            let comment = || format!("% {}: {}\n", citation.key, citation.text.replace('@', " at "));
+            Out::Stdout.text(citation.bibtex().unwrap_or_else(comment))?;
+        }
+    }
+    Ok(Exit::Done)
+}
+
+/// The factory of a method's id, guarded or not.
+fn find<'a>(context: &'a Context, id: &str) -> anyhow::Result<&'a dyn Factory> {
+    let inner = id.trim_start_matches("guarded(").trim_end_matches(')');
+    if let Some(factory) = context.registry.find(inner) {
+        return Ok(factory);
+    }
+    // The registry knows which names are nearest.
+    let unknown = context.registry.build(id, &Map::new()).map(|_| ());
+    unknown.map_err(|error| usage(error.to_string()))?;
+    Err(usage(format!("there is no method `{inner}`")))
+}
+
 /// Everything about one method.
 fn one(context: &Context, id: &str, as_json: bool) -> anyhow::Result<Exit> {
-    let inner = id.trim_start_matches("guarded(").trim_end_matches(')');
-    let Some(factory) = context.registry.find(inner) else {
-        // The registry knows which names are nearest.
-        let unknown = context.registry.build(id, &Map::new()).map(|_| ());
-        unknown.map_err(|error| usage(error.to_string()))?;
-        return Err(usage(format!("there is no method `{inner}`")));
-    };
+    let factory = find(context, id)?;
     let method = match factory.ready() {
         true => Some(context.registry.build(id, &Map::new()).map_err(|error| usage(error.to_string()))?),
         false => None,

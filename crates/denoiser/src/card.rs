@@ -4,24 +4,7 @@ use std::fmt;
 use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
 use noisefloor_stats::Level;
 
-use crate::{Alternative, param::nearest};
-
-/// Where a method comes from.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Citation {
-    /// Short key such as `moon2013flash`.
-    pub key: Cow<'static, str>,
-    /// Authors, title, venue, year.
-    pub text: Cow<'static, str>,
-}
-
-impl Citation {
-    /// A source known when the program was written.
-    #[must_use]
-    pub const fn new(key: &'static str, text: &'static str) -> Self {
-        Self { key: Cow::Borrowed(key), text: Cow::Borrowed(text) }
-    }
-}
+use crate::{Alternative, Citation, param::nearest};
 
 /// One input that a method cannot run without.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -29,6 +29,7 @@
 
 mod adaptive;
 mod card;
+mod citation;
 mod error;
 mod exposure;
 mod factory;
@@ -46,7 +47,8 @@ mod timer;
 mod tests;
 
 pub use adaptive::Adaptive;
-pub use card::{Citation, Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
+pub use card::{Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
+pub use citation::{Citation, Entry, Published};
 pub use error::DenoiseError;
 pub use exposure::Exposed;
 pub use factory::{BuildError, Factory, check_overrides, method};

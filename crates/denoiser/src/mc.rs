@@ -1,6 +1,9 @@
 use std::sync::Arc;
 
-use crate::{Citation, Cost, DenoiseError, Denoiser, Factory, Input, MethodCard, Output, method, parameters};
+use crate::{
+    Citation, Cost, DenoiseError, Denoiser, Entry, Factory, Input, MethodCard, Output, Published, method,
+    parameters,
+};
 
 /// Plain Monte Carlo: returns the noisy mean itself. The baseline of every plot.
 #[derive(Debug, Clone, Copy, Default)]
@@ -11,6 +14,20 @@ parameters! {
     pub struct NoParams {}
 }
 
+/// The source of plain Monte Carlo.
+const CITATION: Citation = Citation::with_entry(
+    "kajiya1986",
+    "J. T. Kajiya, The rendering equation, SIGGRAPH 1986",
+    Entry {
+        authors: "James T. Kajiya",
+        title: "The Rendering Equation",
+        published: Published::Proceedings { name: "Proceedings of SIGGRAPH '86" },
+        year: 1986,
+        pages: "143-150",
+        doi: "10.1145/15922.15902",
+    },
+);
+
 /// Factory of [`MonteCarlo`].
 #[must_use]
 pub fn mc() -> Arc<dyn Factory> {
@@ -20,11 +37,7 @@ pub fn mc() -> Arc<dyn Factory> {
 
 impl Denoiser for MonteCarlo {
     fn card(&self) -> MethodCard {
-        let mut card = MethodCard::new(
-            "mc",
-            "Monte Carlo (input)",
-            Citation::new("kajiya1986", "J. T. Kajiya, The rendering equation, SIGGRAPH 1986"),
-        );
+        let mut card = MethodCard::new("mc", "Monte Carlo (input)", CITATION);
         card.claims.consistent = true;
         card.cost = Cost::None;
         card

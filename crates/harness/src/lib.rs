@@ -1,11 +1,4 @@
-//! Runs studies: plan, frames, cells, records, resumable at every stage.
-//!
-//! The harness is *handed* the registry and names no method but the baseline; it asks every question of
-//! `noisefloor_questions` and knows none. What it reads and writes is plain data of `noisefloor_study`.
-//!
-//! * [`run`] plans a study, renders or imports its frames, denoises, measures, appends one record per finished cell, and
-//!   has the records analysed. Called again it continues.
-//! * [`reanalyse`] makes the summary again from what a study's folder keeps.
+#![doc = include_str!("../README.md")]
 
 mod cache;
 mod error;

@@ -3,10 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_denoiser::Registry;
-use noisefloor_questions::measuring;
+use noisefloor_questions::{measuring, measuring_of};
 use noisefloor_study::plan::{Item, PLAN_SCHEMA, PlannedCell, PlannedFrame};
 use noisefloor_study::record::RECORD_SCHEMA;
-use noisefloor_study::{Key, Place, Study, StudyError, key_of};
+use noisefloor_study::{Key, Place, Study, StudyError, key_of, metric};
 use serde_json::json;
 
 use crate::error::HarnessError;
@@ -151,6 +151,12 @@ fn cell_key(study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row, beside: 
     // Cells without neighbouring frames keep the keys that they had when there were none.
     if !beside.is_empty() {
         all["beside"] = json!(beside.iter().map(|(_, frame)| &frame.key).collect::<Vec<_>>());
+    }
+    // Nor does a metric change the keys of studies that do not list it, unless it is always measured.
+    let asked = metric::asked(&study.metrics);
+    let asked: BTreeMap<&str, Key> = asked.iter().map(|asked| (asked.id, measuring_of(asked))).collect();
+    if !asked.is_empty() {
+        all["metrics"] = json!(asked);
     }
     key_of(&all)
 }

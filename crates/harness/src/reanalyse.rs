@@ -12,7 +12,7 @@ use crate::machine;
 use crate::recorded::KeptStudy;
 use crate::store::{FolderImages, Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
 use noisefloor_questions::{Kept as Where, PixelClasses, measure_metrics, measuring, summarise};
-use noisefloor_study::Study;
+use noisefloor_study::{Study, metric};
 use noisefloor_study::context::{Context, SceneContext};
 use noisefloor_study::files;
 use noisefloor_study::record::Record;
@@ -78,7 +78,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
             let whole = |record: &&mut Record| {
                 record.scene == scene.id && !record.image.as_ref().is_some_and(|path| damaged.contains(path))
             };
-            measure_again(dir, scene, all.iter_mut().filter(whole))?;
+            measure_again(dir, &study, scene, all.iter_mut().filter(whole))?;
         }
         if here {
             replace(&layout, &all)?;
@@ -171,6 +171,7 @@ fn same_folder(a: &Path, b: &Path) -> bool {
 
 fn measure_again<'a>(
     dir: &Path,
+    study: &Study,
     scene: &SceneContext,
     records: impl Iterator<Item = &'a mut Record>,
 ) -> Result<(), HarnessError> {
@@ -187,6 +188,7 @@ fn measure_again<'a>(
     let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
     let wrong = |source| HarnessError::Metric { scene: scene.id.clone(), source };
     let measurer = Measurer::new(&reference, Some(map)).map_err(wrong)?;
+    let measurer = measurer.with(&metric::asked(&study.metrics));
     let lacks_parts = reference.parts.len() < scene.reference.parts as usize;
     for record in records {
         let Some(relative) = &record.image else { continue };

@@ -2,8 +2,8 @@ use std::collections::BTreeMap;
 
 use noisefloor_frame::Image;
 
-use crate::measurer::{Measurer, aggregate};
-use crate::{METRICS, MetricError};
+use crate::MetricError;
+use crate::measurer::Measurer;
 
 /// Side of the square blocks that are resampled together, in pixels: neighbouring pixels share their error
 /// after denoising.
@@ -28,22 +28,22 @@ pub fn block_bootstrap(
     if blocks.len() < 2 {
         return Ok(BTreeMap::new());
     }
-    let mut samples: Vec<Vec<f64>> = vec![Vec::with_capacity(replicates); METRICS.len()];
+    let mut samples: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
     let mut state = seed;
     for _ in 0..replicates {
         let chosen: Vec<usize> = (0..blocks.len()).map(|_| below(&mut state, blocks.len())).collect();
-        let values = aggregate(&errors, chosen.iter().flat_map(|&b| blocks[b].iter().copied()));
-        for (samples, metric) in samples.iter_mut().zip(METRICS) {
-            samples.extend(values[metric.id]);
+        let members: Vec<usize> = chosen.iter().flat_map(|&b| blocks[b].iter().copied()).collect();
+        for (metric, value) in errors.over(&members) {
+            samples.entry(metric.id).or_default().extend(value);
         }
     }
     let mut out = BTreeMap::new();
-    for (samples, metric) in samples.iter().zip(METRICS) {
+    for (id, samples) in samples {
         if samples.len() >= 2 {
             let n = samples.len() as f64;
             let mean = samples.iter().sum::<f64>() / n;
             let m2: f64 = samples.iter().map(|v| (v - mean).powi(2)).sum();
-            out.insert(metric.id.to_owned(), (m2 / (n - 1.0)).sqrt()); // n ≥ 2
+            out.insert(id.to_owned(), (m2 / (n - 1.0)).sqrt()); // n ≥ 2
         }
     }
     Ok(out)

@@ -40,6 +40,30 @@ pub enum MetricError {
         /// Pixels of the image.
         pixels: usize,
     },
+    /// The map of a metric does not cover the image.
+    #[error("metric `{id}` gave {got} values for {pixels} pixels")]
+    Map {
+        /// Id of the metric.
+        id: &'static str,
+        /// Pixels of the image.
+        pixels: usize,
+        /// Values given.
+        got: usize,
+    },
+    /// A metric could not be computed.
+    #[error("metric `{id}`: {reason}")]
+    Failed {
+        /// Id of the metric.
+        id: &'static str,
+        /// Why.
+        reason: String,
+    },
+    /// There is a metric of this id.
+    #[error("there is a metric `{id}` already")]
+    Taken {
+        /// Id given.
+        id: &'static str,
+    },
     /// No metric of this id.
     #[error("unknown metric `{id}`; known: {known}")]
     Unknown {

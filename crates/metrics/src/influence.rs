@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use crate::bootstrap::blocks;
 use crate::contribution::Contribution;
 use crate::measurer::Measurer;
-use crate::pixels::PixelErrors;
+use crate::pixels::Pixels;
 use crate::relative_bias::{weight, weight_slope};
 use noisefloor_frame::{Image, SquaredError};
 
@@ -66,7 +66,7 @@ impl Sums {
 pub(crate) fn contributions(
     measurer: &Measurer<'_>,
     test: &Image,
-    errors: &PixelErrors,
+    errors: &Pixels<'_>,
     kept: &[bool],
 ) -> (Contributions, BTreeMap<String, Contributions>) {
     if matches!(measurer.squared_error(), SquaredError::Exact | SquaredError::Uncorrected) {
@@ -112,7 +112,7 @@ enum Source<'m> {
 }
 
 impl<'m> Source<'m> {
-    fn new(measurer: &'m Measurer<'m>, errors: &PixelErrors) -> Self {
+    fn new(measurer: &'m Measurer<'m>, errors: &Pixels<'_>) -> Self {
         let Some(halves) = &measurer.reference.frame.color.halves else { return Self::Nothing };
         if measurer.parts_in_a().is_some() {
             return Self::Parts { measurer, halves };

@@ -1,8 +1,10 @@
 //! One table of image metrics: id, formula, epsilon, averaging order, direction, non-finite policy.
 //!
-//! [`METRICS`] says what each number is; [`Measurer`] computes all of them at once for any number of images
-//! against one reference, over the image and per pixel class, and says how much of each number's uncertainty
-//! is the reference's own.
+//! [`METRICS`] says what each number is and how it comes about; [`Measurer`] computes all of them at once for any number of
+//! images against one reference, over the image and per pixel class, and says how much of each number's uncertainty
+//! is the reference's own. A metric is one entry: its words and its [`Rule`]. Those [on request](ON_REQUEST) are measured
+//! where a study lists them; [`add`] puts one of yours among them. Only the correction for the reference's noise is made for
+//! single metrics, in `influence.rs` and `reference_noise.rs`.
 //!
 //! The noise of a reference must not pass for error. Where the formula allows, it is taken out: the product
 //! of the residuals to two independent halves is an unbiased squared error; a reference with a variance and
@@ -23,12 +25,14 @@
 mod bootstrap;
 mod contribution;
 mod error;
+mod flip;
 mod influence;
 mod map;
 mod measurer;
 mod pixels;
 mod reference_noise;
 mod relative_bias;
+mod rules;
 mod ssim;
 mod table;
 mod tone;
@@ -39,6 +43,7 @@ pub use contribution::Contribution;
 pub use error::MetricError;
 pub use map::{ErrorKind, error_map};
 pub use measurer::{Classes, Measured, Measurer, Values};
-pub use table::{Better, EPSILON, METRICS, Metric, TRIMMED_SHARE, metric};
+pub use pixels::Pixels;
+pub use table::{Better, EPSILON, METRICS, Metric, ON_REQUEST, Rule, TRIMMED_SHARE, add, metric, on_request};
 pub use tone::{srgb_curve, tone_map};
 pub use trimmed::trimmed_count;

@@ -4,12 +4,12 @@ use noisefloor_frame::{Image, Reference, SquaredError};
 
 use crate::contribution::Contribution;
 use crate::influence::contributions;
-use crate::pixels::{LUMA, PixelErrors};
+use crate::pixels::{LUMA, Pixels};
 use crate::reference_noise::ReferenceNoise;
 use crate::relative_bias::{RelativeBias, weight};
 use crate::tone::tone;
-use crate::trimmed::{kept_positions, trimmed_mean};
-use crate::{METRICS, MetricError};
+use crate::trimmed::kept_positions;
+use crate::{METRICS, Metric, MetricError};
 
 /// Metric id to value; `None` where it is undefined or not finite.
 pub type Values = BTreeMap<String, Option<f64>>;
@@ -61,6 +61,7 @@ pub struct Measurer<'a> {
     /// Its luma.
     pub(crate) luma: Vec<f64>,
     pub(crate) classes: Option<Classes<'a>>,
+    metrics: Vec<&'static Metric>,
     pub(crate) noise: ReferenceNoise,
     pub(crate) bias: RelativeBias,
 }
@@ -99,12 +100,30 @@ impl<'a> Measurer<'a> {
             toned,
             luma,
             classes,
+            metrics: METRICS.iter().collect(),
             noise: ReferenceNoise::default(),
             bias: RelativeBias::default(),
         };
         measurer.noise = ReferenceNoise::new(&measurer);
         measurer.bias = RelativeBias::new(&measurer);
         Ok(measurer)
+    }
+
+    /// Measures these too, beside [`METRICS`]; what is measured anyway stays as it is.
+    #[must_use]
+    pub fn with(mut self, metrics: &[&'static Metric]) -> Self {
+        for metric in metrics {
+            if self.metrics.iter().all(|other| other.id != metric.id) {
+                self.metrics.push(metric);
+            }
+        }
+        self
+    }
+
+    /// What is measured, in the order of display.
+    #[must_use]
+    pub fn metrics(&self) -> &[&'static Metric] {
+        &self.metrics
     }
 
     /// How the reference's noise is taken out of squared errors.
@@ -158,22 +177,25 @@ impl<'a> Measurer<'a> {
     ///
     /// # Errors
     /// [`MetricError::Shape`] if the image has not the shape of the reference, [`MetricError::NoCommonPixel`] if no pixel is
-    /// finite in both.
+    /// finite in both; what a metric on request fails with.
     pub fn measure(&self, test: &Image) -> Result<Measured, MetricError> {
         let errors = self.pixel_errors(test)?;
-        let all = (0..test.pixels()).filter(|&p| errors.valid[p]);
-        let pixels = all.clone().count();
+        let all: Vec<usize> = (0..test.pixels()).filter(|&p| errors.valid[p]).collect();
+        let pixels = all.len();
         if pixels == 0 {
             return Err(MetricError::NoCommonPixel { pixels: test.pixels() });
         }
-        let values = aggregate(&errors, all.clone());
+        let over = |members: &[usize]| -> Values {
+            errors.over(members).map(|(metric, value)| (metric.id.to_owned(), value)).collect()
+        };
+        let values = over(&all);
         let mut classes = BTreeMap::new();
         if let Some(map) = &self.classes {
             let mut members = vec![Vec::new(); map.names.len()];
-            all.clone().for_each(|p| members[map.of_pixel[p] as usize].push(p));
+            all.iter().for_each(|&p| members[map.of_pixel[p] as usize].push(p));
             for (name, members) in map.names.iter().zip(members) {
                 if !members.is_empty() {
-                    classes.insert(name.clone(), aggregate(&errors, members.into_iter()));
+                    classes.insert(name.clone(), over(&members));
                 }
             }
         }
@@ -209,9 +231,9 @@ impl<'a> Measurer<'a> {
         Ok(squared.collect())
     }
 
-    pub(crate) fn pixel_errors(&self, test: &Image) -> Result<PixelErrors, MetricError> {
+    pub(crate) fn pixel_errors<'b>(&'b self, test: &'b Image) -> Result<Pixels<'b>, MetricError> {
         test.expect_shape("test image", self.mean.width(), self.mean.height(), 3)?;
-        Ok(PixelErrors::new(self, test))
+        Pixels::new(self, test)
     }
 
     /// Squared error of value `x` at planar index `i`, where `e` is its residual to the reference mean.
@@ -255,51 +277,10 @@ fn finite_pixels(reference: &Reference) -> Vec<bool> {
 }
 
 /// Pixels that the trimmed mean over all pixels keeps.
-fn kept(errors: &PixelErrors) -> Vec<bool> {
+fn kept(errors: &Pixels<'_>) -> Vec<bool> {
     let all: Vec<usize> = (0..errors.valid.len()).filter(|&p| errors.valid[p]).collect();
     let plain: Vec<f64> = all.iter().map(|&p| errors.relative_plain[p]).collect();
     let mut kept = vec![false; errors.valid.len()];
     kept_positions(&plain).into_iter().for_each(|at| kept[all[at]] = true);
     kept
-}
-
-/// All metrics over some pixels, by id.
-pub(crate) fn aggregate(errors: &PixelErrors, pixels: impl Iterator<Item = usize>) -> Values {
-    let (mut squared, mut relative, mut toned, mut ssim) = (0.0, 0.0, 0.0, 0.0);
-    let (mut value, mut truth) = (0.0, 0.0);
-    let (mut plain, mut corrected) = (Vec::new(), Vec::new());
-    for p in pixels {
-        squared += errors.squared[p];
-        relative += errors.relative[p];
-        toned += errors.toned[p];
-        ssim += errors.ssim[p];
-        value += errors.value[p];
-        truth += errors.truth[p];
-        plain.push(errors.relative_plain[p]);
-        corrected.push(errors.relative[p]);
-    }
-    if plain.is_empty() {
-        return METRICS.iter().map(|m| (m.id.to_owned(), None)).collect();
-    }
-    let inverse = 1.0 / plain.len() as f64; // not empty
-    let mse = squared * inverse;
-    let trimmed = if errors.corrected {
-        let kept = kept_positions(&plain);
-        let sum: f64 = kept.iter().map(|&at| corrected[at]).sum();
-        (!kept.is_empty()).then(|| sum / kept.len() as f64)
-    } else {
-        trimmed_mean(&mut plain)
-    };
-    let psnr = -10.0 * (toned * inverse).log10();
-    [
-        ("mse", Some(mse)),
-        ("rmse", Some(mse.max(0.0).sqrt())),
-        ("relmse", Some(relative * inverse)),
-        ("relmse_trimmed", trimmed),
-        ("psnr", Some(psnr)),
-        ("ssim", Some(ssim * inverse)),
-        ("energy", (truth > 0.0).then(|| value / truth)),
-    ]
-    .map(|(id, value)| (id.to_owned(), value.filter(|v| v.is_finite())))
-    .into()
 }

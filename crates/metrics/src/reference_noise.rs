@@ -26,7 +26,7 @@ use crate::bootstrap::blocks;
 use crate::contribution::Contribution;
 use crate::influence::{Contributions, halves_term};
 use crate::measurer::{Measurer, Values};
-use crate::pixels::PixelErrors;
+use crate::pixels::Pixels;
 
 /// Parts of the reference relative to the mean of their half, and the weighted variance of the product term.
 #[derive(Debug, Default)]
@@ -78,7 +78,7 @@ impl ReferenceNoise {
         &self,
         measurer: &Measurer<'_>,
         test: &Image,
-        errors: &PixelErrors,
+        errors: &Pixels<'_>,
         values: &Values,
         contributions: &Contributions,
     ) -> BTreeMap<String, f64> {

@@ -28,13 +28,17 @@
 //!
 //! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims. What is known only at
 //! run time implements [`Factory`] itself.
+//!
+//! # Bring a metric
+//!
+//! [`metrics::add`] before [`main_with`]: a study that lists its id gets it, and so does `noisefloor compare --metric ID`.
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
     Adaptive, Alternative, Bound, BuildError, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser,
-    Diagnostic, Diagnostics, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard, Need,
-    NoParams, Output, Param, ParamError, Parameters, Registry, Setting, StageSeconds, StageTimer, Unit,
-    choices, method, parameters,
+    Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard,
+    Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting, StageSeconds,
+    StageTimer, Unit, choices, method, parameters,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,

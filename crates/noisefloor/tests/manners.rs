@@ -195,6 +195,12 @@ fn a_method_has_a_page_and_a_misspelt_one_is_answered_with_the_nearest() {
     assert!(guarded["readme"].as_str().unwrap().contains("# Requires"));
     assert!(done(at, &["methods", "mc"]).starts_with("mc\n"));
     assert!(refused(at, &["methods", "rdfd"], 2).contains("rdfc"));
+    let all = done(at, &["methods", "--bibtex"]);
+    assert_eq!(all.matches("@article{rousselle2013rdfc,").count(), 1, "each source once: {all}");
+    assert_eq!(all.matches('{').count(), all.matches('}').count(), "{all}");
+    assert!(done(at, &["methods", "guarded(rdfc)", "--bibtex"]).starts_with("@article{rousselle2013rdfc,"));
+    assert!(done(at, &["methods", "command", "--bibtex"]).is_empty(), "a guest's source is its program");
+    assert!(refused(at, &["methods", "rdfd", "--bibtex"], 2).contains("rdfc"));
 }
 
 #[test]

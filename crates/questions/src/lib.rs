@@ -26,7 +26,7 @@ pub use breakage::violations;
 pub use cell::{Cell, Measure, MeasureError, PixelClasses, UnknownClass};
 pub use error::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub use flicker::{Images, Sequences, flicker};
-pub use measuring::measuring;
+pub use measuring::{measuring, measuring_of};
 pub use question::{QUESTIONS, Question, measure};
 pub use records::median;
 pub use summarise::{Kept, summarise};

@@ -1,10 +1,11 @@
 //! What the measuring gives on a fixed pair of images: numbers of two definitions of a metric are never mixed.
 
-use std::sync::OnceLock;
+use std::collections::BTreeMap;
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 use noisefloor_denoiser::Claim;
 use noisefloor_frame::{Frame, Image, Reference, Sampling};
-use noisefloor_metrics::{Classes, Measurer, MetricError, block_bootstrap};
+use noisefloor_metrics::{Classes, Measurer, Metric, MetricError, block_bootstrap};
 use noisefloor_stats::{Level, ShapeError};
 use noisefloor_study::{Bits, Key, key_of};
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
@@ -23,6 +24,32 @@ pub fn measuring() -> &'static str {
     })
 }
 
+/// The same for a metric that is measured on request alone: its numbers, those of classes and its spread.
+pub fn measuring_of(metric: &'static Metric) -> Key {
+    static KNOWN: Mutex<BTreeMap<&str, Key>> = Mutex::new(BTreeMap::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = || {
+        numbers_of(metric).map_or_else(|error| format!("{}: {error}", metric.id), |numbers| key_of(&numbers))
+    };
+    known.entry(metric.id).or_insert_with(key).clone()
+}
+
+fn numbers_of(metric: &'static Metric) -> Result<Value, Wrong> {
+    let (_, image, references) = fixed()?;
+    let of_reference = |reference: &Reference| {
+        let classes = PixelClasses::from_reference(reference);
+        let map = Classes { names: &classes.names, of_pixel: &classes.of_pixel };
+        let measurer = Measurer::new(reference, Some(map))?.with(&[metric]);
+        let measured = measurer.measure(&image)?;
+        let in_classes: Vec<Option<f64>> =
+            measured.classes.values().map(|values| values[metric.id]).collect();
+        let spread = block_bootstrap(&measurer, &image, BOOTSTRAP_IMAGES, 1)?;
+        Ok(json!([measured.values[metric.id], in_classes, spread.get(metric.id)]))
+    };
+    let numbers: Result<Vec<Value>, Wrong> = references.iter().map(of_reference).collect();
+    Ok(json!(numbers?))
+}
+
 #[derive(Debug, thiserror::Error)]
 enum Wrong {
     #[error(transparent)]
@@ -36,6 +63,14 @@ enum Wrong {
 }
 
 fn everything() -> Result<Value, Wrong> {
+    let (frame, image, references) = fixed()?;
+    let measured: Result<Vec<Value>, Wrong> =
+        references.iter().map(|reference| against(reference, &frame, &image)).collect();
+    Ok(json!(measured?))
+}
+
+/// A frame, an image made from it, and truths that state their noise in every way.
+fn fixed() -> Result<(Frame, Image, [Reference; 4]), Wrong> {
     let law = SampleLaw::Gaussian { sd: 0.3, relative: false };
     // More than one block of the bootstrap in both directions.
     let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, 70, 50)?.with_guides(Guides::None);
@@ -51,10 +86,7 @@ fn everything() -> Result<Value, Wrong> {
     for (value, at) in [(f32::NAN, 3), (f32::INFINITY, 1801), (f32::NEG_INFINITY, 5000)] {
         image.data_mut()[at] = value;
     }
-    let references = [scene.truth(), in_parts, varied, silent];
-    let measured: Result<Vec<Value>, Wrong> =
-        references.iter().map(|reference| against(reference, &frame, &image)).collect();
-    Ok(json!(measured?))
+    Ok((frame, image, [scene.truth(), in_parts, varied, silent]))
 }
 
 fn against(reference: &Reference, frame: &Frame, image: &Image) -> Result<Value, Wrong> {
@@ -98,6 +130,7 @@ mod tests {
     fn the_fingerprint_of_the_measuring_holds_every_number_of_a_record() {
         let all = everything().unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(measuring(), key_of(&all));
+
         for (index, of_reference) in all.as_array().unwrap().iter().enumerate() {
             for (name, found) in of_reference.as_object().unwrap() {
                 // The exact truth has no noise of its own, one that states none has none to tell.
@@ -112,6 +145,20 @@ mod tests {
                 assert!(of_reference["values"][metric.id].is_number(), "{index}: {}", metric.id);
             }
         }
+    }
+
+    #[test]
+    fn a_metric_on_request_has_a_fingerprint_of_its_own_and_leaves_the_others() {
+        use noisefloor_metrics::{Metric, Rule, add, metric};
+        let before = everything().unwrap_or_else(|e| panic!("{e}"));
+        let rules =
+            [("one", Rule::Over(|_, _| Some(1.0))), ("pixels", Rule::Over(|_, of| Some(of.len() as f64)))];
+        let [one, pixels] = rules.map(|(id, rule)| {
+            add(Metric::new(id, id, "for a test", rule)).unwrap();
+            measuring_of(metric(id).unwrap())
+        });
+        assert_ne!(one, pixels);
+        assert_eq!(key_of(&everything().unwrap()), key_of(&before));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What the method needs and what may be said of it.
 
-use noisefloor_denoiser::{Citation, Cost, MethodCard, Need, Role};
+use noisefloor_denoiser::{Citation, Cost, Entry, MethodCard, Need, Published, Role};
 use noisefloor_frame::FeatureId;
 
 use crate::params::Profile;
@@ -9,10 +9,18 @@ use crate::settings::Settings;
 use crate::{Params, SecondPass};
 
 /// The source work.
-pub const CITATION: Citation = Citation::new(
+pub const CITATION: Citation = Citation::with_entry(
     "rousselle2013rdfc",
     "F. Rousselle, M. Manzi, M. Zwicker, Robust Denoising using Feature and Color Information, Computer Graphics \
            Forum 32(7), 2013",
+    Entry {
+        authors: "Fabrice Rousselle and Marco Manzi and Matthias Zwicker",
+        title: "Robust Denoising using Feature and Color Information",
+        published: Published::Journal { name: "Computer Graphics Forum", volume: "32", number: "7" },
+        year: 2013,
+        pages: "121-130",
+        doi: "10.1111/cgf.12219",
+    },
 );
 
 pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCard {

@@ -43,6 +43,27 @@ fn ids_are_unique_and_defaults_build_under_their_own_id() {
 }
 
 #[test]
+fn every_method_has_a_complete_entry_of_a_bibliography() {
+    let registry = registry([]);
+    let mut entries = std::collections::BTreeMap::new();
+    for factory in builtin() {
+        let citation = registry.build(factory.id(), &Map::new()).unwrap().denoiser.card().citation;
+        let entry = citation.entry.unwrap_or_else(|| panic!("{} has no entry", factory.id()));
+        assert!(entry.missing().is_empty(), "{}: {:?}", factory.id(), entry.missing());
+        // What people read says the same.
+        assert!(citation.text.contains(&entry.year.to_string()), "{}", factory.id());
+        let text = citation.text.to_lowercase();
+        assert!(text.contains(&entry.title.to_lowercase()), "{}: {}", factory.id(), entry.title);
+        let last = |name: &str| name.rsplit(' ').next().unwrap_or_default().to_lowercase();
+        for author in entry.authors.split(" and ") {
+            assert!(text.contains(&last(author)), "{}: {author}", factory.id());
+        }
+        // One key, one source.
+        assert_eq!(*entries.entry(citation.key).or_insert(entry), entry, "{}", factory.id());
+    }
+}
+
+#[test]
 fn every_parameter_rejects_a_value_of_the_wrong_type_with_its_range() {
     let registry = registry([]);
     for factory in builtin() {

@@ -1,17 +1,4 @@
-//! Intervals, coverage, bounds, slopes and comparisons: numbers in, numbers out.
-//!
-//! No images, no files, no randomness. A confidence [`Level`] says whether it is two-sided or upper, and an
-//! [`Interval`]'s level travels with it.
-//!
-//! | question | file |
-//! | --- | --- |
-//! | How sure is a mean over replicates? | [`replicate_interval`], [`proportion_interval`], [`Interval::below`] |
-//! | Do t-intervals of pixels cover the truth? | [`coverage`] |
-//! | Does an error bound hold? | [`half_widths`], [`bound_violations`], [`bound_verdict`], [`enclosure`] |
-//! | Which method is better? | [`compare`], [`holm_adjusted`], [`paired_ratio`] |
-//! | How fast does the error fall, and to what? | [`slope`], [`convergence`], [`monte_carlo_constant`], [`equal_error_multiplier`] |
-//! | What does a common reference add to ratios and slopes? | [`ReferenceShare`] |
-//! | Which methods are worth their time? | [`pareto_front`] |
+#![doc = include_str!("../README.md")]
 
 mod bounds;
 mod compare;

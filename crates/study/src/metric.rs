@@ -1,17 +1,29 @@
 //! The metric table, as a study sees it.
 
-use noisefloor_metrics::{Better, METRICS, Metric};
+use noisefloor_metrics::{Better, METRICS, Metric, on_request};
 
 use crate::summary::MetricInfo;
 
-/// Ids of all metrics, in the order of display.
+/// Ids of the metrics of a study that lists none, in the order of display.
 #[must_use]
 pub fn ids() -> Vec<String> {
     METRICS.iter().map(|metric| metric.id.to_owned()).collect()
 }
 
+/// Ids of all metrics that a study may list.
+#[must_use]
+pub fn known() -> Vec<String> {
+    METRICS.iter().chain(on_request()).map(|metric| metric.id.to_owned()).collect()
+}
+
+/// Those that are measured because a study lists them.
+#[must_use]
+pub fn asked(listed: &[String]) -> Vec<&'static Metric> {
+    on_request().into_iter().filter(|metric| listed.iter().any(|id| id == metric.id)).collect()
+}
+
 fn of(id: &str) -> Option<&'static Metric> {
-    METRICS.iter().find(|metric| metric.id == id)
+    noisefloor_metrics::metric(id).ok()
 }
 
 /// The metric shown first unless a study says otherwise: `relmse` where it is listed, else the first that ranks rows.

@@ -1,15 +1,23 @@
 //! What the method needs and what may be claimed for its settings.
 
-use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, MethodCard, Need};
+use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, Entry, MethodCard, Need, Published};
 
 use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};
 
 /// The source work.
-pub const CITATION: Citation = Citation::new(
+pub const CITATION: Citation = Citation::with_entry(
     "moon2013flash",
     "B. Moon, J. Y. Jun, J. Lee, K. Kim, T. Hachisuka, S.-E. Yoon, Robust Image Denoising Using a Virtual Flash Image \
            for Monte Carlo Ray Tracing, Computer Graphics Forum 32(1), 2013",
+    Entry {
+        authors: "Bochang Moon and Jong Yun Jun and JongHyeob Lee and Kunho Kim and Toshiya Hachisuka and Sung-Eui Yoon",
+        title: "Robust Image Denoising Using a Virtual Flash Image for Monte Carlo Ray Tracing",
+        published: Published::Journal { name: "Computer Graphics Forum", volume: "32", number: "1" },
+        year: 2013,
+        pages: "139-151",
+        doi: "10.1111/cgf.12004",
+    },
 );
 
 pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {

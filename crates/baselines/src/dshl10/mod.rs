@@ -8,8 +8,8 @@ mod tests;
 use std::sync::Arc;
 
 use noisefloor_denoiser::{
-    Citation, Cost, DenoiseError, Denoiser, Factory, Input, Invariance, MethodCard, Need, Output, ParamError, Parameters,
-    StageTimer,
+    Citation, Cost, DenoiseError, Denoiser, Entry, Factory, Input, Invariance, MethodCard, Need, Output, ParamError,
+    Parameters, Published, StageTimer,
 };
 use noisefloor_frame::FeatureId;
 
@@ -19,10 +19,18 @@ pub use params::{Halving, Params};
 const ID: &str = "dshl10";
 
 /// The source work.
-pub const CITATION: Citation = Citation::new(
+pub const CITATION: Citation = Citation::with_entry(
     "dammertz2010",
     "H. Dammertz, D. Sewtz, J. Hanika, H. P. A. Lensch, Edge-Avoiding À-Trous Wavelet Transform for fast Global \
      Illumination Filtering, High Performance Graphics 2010",
+    Entry {
+        authors: "Holger Dammertz and Daniel Sewtz and Johannes Hanika and Hendrik P. A. Lensch",
+        title: "Edge-Avoiding À-Trous Wavelet Transform for fast Global Illumination Filtering",
+        published: Published::Proceedings { name: "High Performance Graphics" },
+        year: 2010,
+        pages: "",
+        doi: "",
+    },
 );
 
 /// The edge-avoiding à-trous filter: see the module documentation.

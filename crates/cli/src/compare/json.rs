@@ -1,6 +1,6 @@
 //! The comparison for programs.
 
-use noisefloor_metrics::{METRICS, Measurer};
+use noisefloor_metrics::Measurer;
 use serde_json::{Map, Value, json};
 
 use super::Compared;
@@ -14,12 +14,13 @@ pub fn describe(args: &Compare, measurer: &Measurer<'_>, all: &[Compared<'_>]) -
 
 fn object(args: &Compare, measurer: &Measurer<'_>, one: &Compared<'_>) -> Value {
     let measured = &one.measured;
-    let values: Map<String, Value> = METRICS
+    let values: Map<String, Value> = measurer
+        .metrics()
         .iter()
         .map(|m| (m.id.to_owned(), measured.values.get(m.id).copied().flatten().into()))
         .collect();
     let pixels: Map<String, Value> =
-        METRICS.iter().map(|m| (m.id.to_owned(), one.pixels(m.id).into())).collect();
+        measurer.metrics().iter().map(|m| (m.id.to_owned(), one.pixels(m.id).into())).collect();
     let mut object = json!({
         "test": one.path,
         "reference": args.reference,

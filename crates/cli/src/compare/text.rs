@@ -19,7 +19,7 @@ pub fn describe(measurer: &Measurer<'_>, all: &[Compared<'_>]) -> String {
     head.extend(names(all));
     head.push("better".to_owned());
     let mut rows = vec![head];
-    for metric in METRICS {
+    for metric in measurer.metrics() {
         let cell = |one: &Compared<'_>| match one.measured.values.get(metric.id).copied().flatten() {
             None => "not finite".to_owned(),
             Some(_) if one.upper_limits().contains_key(metric.id) => {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use noisefloor_frame::{Finding, FindingKind};
 use noisefloor_questions::Measure;
-use noisefloor_study::Key;
+use noisefloor_study::{Key, metric};
 use noisefloor_study::context::SceneContext;
 use noisefloor_study::record::{NonFinite, Outcome};
 
@@ -34,7 +34,8 @@ pub(super) fn run(
         runner.request.observer.warning(&text);
     }
     let (truth, mut context) = truth(scene, runner.cache, runner.layout, runner.request.observer)?;
-    let measurer = truth.measurer(scene)?;
+    let asked = metric::asked(&runner.request.study.metrics);
+    let measurer = truth.measurer(scene)?.with(&asked);
     let mut inputs = Inputs::open(scene, runner.layout, &truth.reference, &mut context);
     for (spec, cells) in work {
         runner.request.observer.stage(&Stage::Frame {

@@ -204,3 +204,30 @@ fn a_stopped_study_is_analysed_as_far_as_it_went() {
         summary.cells.iter().map(|c| (c.spp, c.label.as_str(), c.replicates)).collect();
     assert_eq!(shape, [(4, "mc", 2), (4, "blur", 2), (16, "mc", 1)]);
 }
+
+#[test]
+fn a_metric_on_request_has_cells_of_its_own_and_leaves_those_of_others() {
+    let place = Place::new();
+    let cells = |study: &noisefloor_study::Study| {
+        let watch = Watch::default();
+        let summary = place.run(study, &watch).unwrap();
+        (watch.cells(), summary)
+    };
+    let (_, plain) = cells(&small());
+    assert!(records(&place.out()).iter().all(|record| !record.metrics.contains_key("hdr_flip")));
+    let mut asking = small();
+    asking.metrics = vec!["relmse".into(), "hdr_flip".into()];
+    let (run, mut first) = cells(&asking);
+    assert_eq!(run, 8);
+    let flips = records(&place.out()).iter().filter(|record| record.metrics["hdr_flip"].is_some()).count();
+    assert_eq!(flips, 8);
+    assert!(first.cells.iter().all(|cell| cell.metrics.contains_key("hdr_flip")));
+    assert!(first.study.metrics.iter().any(|metric| metric.formula.contains("ACES")));
+    let again = reanalyse(&place.out(), true).unwrap();
+    first.environment.date.clone_from(&again.environment.date);
+    assert_eq!(again, first);
+    // Without it everything is there already.
+    let (run, mut back) = cells(&small());
+    back.environment.clone_from(&plain.environment);
+    assert_eq!((run, back), (0, plain));
+}

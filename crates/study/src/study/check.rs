@@ -74,7 +74,7 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), StudyError> 
     if let Some(bad) = study.probe.iter().flatten().find(|v| !(0.0..=1.0).contains(*v)) {
         return wrong("probe", key("probe"), bad.to_string(), "fractions of the image's size, 0 to 1");
     }
-    let known = metric::ids();
+    let known = metric::known();
     for id in &study.metrics {
         if !known.contains(id) {
             return wrong("metrics", key("metrics"), quoted(id), &known.join(", "));
