@@ -47,6 +47,8 @@ pub enum Verb {
     Record(Record),
     /// List the denoising methods with their parameters, or show one with its page
     Methods(List),
+    /// Run a method through the recipes that every method must keep: one's own, before it is compared
+    Check(Check),
     /// List the built-in scenes with what they model
     Scenes(Scenes),
 }
@@ -338,6 +340,30 @@ pub struct List {
     /// One method: everything about it, with its page
     pub id: Option<String>,
     /// Print a JSON array of objects with `id`, or one object for one method
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `noisefloor check`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  noisefloor check rdfc\n  noisefloor check \"guarded(mc)\" --set guard_level=0.95\n  \
+    noisefloor check command --set run=\"my-denoiser {color.pfm} {output.pfm}\"    a program of your own\n  \
+    noisefloor check --all --json\n\n\
+    A line for each recipe: `pass`; `refused`, all of its frames, as the card declares; `declared`, not to be kept; `-`, nothing \
+    to ask; or `FAIL` with what broke. The frames are small and made on the spot."
+)]
+pub struct Check {
+    /// Method id; see `noisefloor methods`
+    #[arg(required_unless_present = "all")]
+    pub method: Option<String>,
+    /// Override a parameter; repeatable
+    #[arg(long = "set", value_name = "NAME=VALUE", requires = "method")]
+    pub set: Vec<String>,
+    /// Every registered method at its defaults
+    #[arg(long, conflicts_with = "method")]
+    pub all: bool,
+    /// Print a JSON array of methods, each with its recipes
     #[arg(long)]
     pub json: bool,
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
 use noisefloor_stats::Level;
 
-use crate::{Alternative, param::nearest};
+use crate::{Alternative, Caveat, param::nearest};
 
 /// Where a method comes from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -199,6 +199,8 @@ pub struct MethodCard {
     /// What the result depends on although it should not, each with the reason; everything else in [`Invariance`] is a
     /// promise that is tested.
     pub varies_with: Vec<(Invariance, String)>,
+    /// What else it does not promise, each with the reason.
+    pub caveats: Vec<(Caveat, String)>,
     /// Rough cost.
     pub cost: Cost,
     /// What it is there for.
@@ -222,6 +224,7 @@ impl MethodCard {
             neighbors: 0,
             claims: Claims::default(),
             varies_with: Vec::new(),
+            caveats: Vec::new(),
             cost: Cost::Second,
             role: Role::Method,
             notes: Vec::new(),

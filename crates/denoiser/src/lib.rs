@@ -29,6 +29,7 @@
 
 mod adaptive;
 mod card;
+mod caveat;
 mod error;
 mod exposure;
 mod factory;
@@ -47,6 +48,7 @@ mod tests;
 
 pub use adaptive::Adaptive;
 pub use card::{Citation, Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
+pub use caveat::Caveat;
 pub use error::DenoiseError;
 pub use exposure::Exposed;
 pub use factory::{BuildError, Factory, check_overrides, method};
