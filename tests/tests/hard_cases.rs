@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use noisefloor_conformance::{Outcome, change, check};
 use noisefloor_denoiser::{Denoiser, Input, Registry};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
+use rayon::prelude::*;
 use serde_json::{Map, Value, json};
 
 /// A method under test with what makes it.
@@ -88,10 +89,11 @@ fn every_method_keeps_every_recipe_and_what_a_card_declares_is_seen() {
     let mut broken = Vec::new();
     // By method and recipe: the settings differ in what they show.
     let mut declared: BTreeMap<(String, &str), bool> = BTreeMap::new();
-    for subject in subjects() {
-        let report = check(subject.denoiser.as_ref());
+    let reports: Vec<_> =
+        subjects().into_par_iter().map(|subject| (subject.label, check(subject.denoiser.as_ref()))).collect();
+    for (label, report) in reports {
         if !report.conforms() {
-            broken.push(format!("{}\n{report}", subject.label));
+            broken.push(format!("{label}\n{report}"));
         }
         for (recipe, outcome) in &report.outcomes {
             if let Outcome::Declared { seen, .. } = outcome {

@@ -350,7 +350,7 @@ pub struct List {
     after_help = "Examples:\n  noisefloor check rdfc\n  noisefloor check \"guarded(mc)\" --set guard_level=0.95\n  \
     noisefloor check command --set run=\"my-denoiser {color.pfm} {output.pfm}\"    a program of your own\n  \
     noisefloor check --all --json\n\n\
-    A line for each recipe: `pass`; `refused`, all of its frames, as the card declares; `declared`, not to be kept; `-`, nothing \
+    A line for each recipe: `pass`; `refused`, all of its frames, as it may; `declared`, not to be kept; `-`, nothing \
     to ask; or `FAIL` with what broke. The frames are small and made on the spot."
 )]
 pub struct Check {
@@ -358,7 +358,7 @@ pub struct Check {
     #[arg(required_unless_present = "all")]
     pub method: Option<String>,
     /// Override a parameter; repeatable
-    #[arg(long = "set", value_name = "NAME=VALUE", requires = "method")]
+    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "all")]
     pub set: Vec<String>,
     /// Every registered method at its defaults
     #[arg(long, conflicts_with = "method")]

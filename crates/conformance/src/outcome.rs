@@ -52,7 +52,9 @@ impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Kept { frames: 0, .. } => f.write_str("no frame needed"),
+            Self::Kept { frames: 1, refused: 0 } => f.write_str("1 frame"),
             Self::Kept { frames, refused: 0 } => write!(f, "{frames} frames"),
+            Self::Kept { frames: 1, refused: 1 } => f.write_str("its frame, as it may"),
             Self::Kept { frames, refused } if frames == refused => {
                 write!(f, "all {frames} frames, as it may")
             }

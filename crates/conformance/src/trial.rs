@@ -66,12 +66,12 @@ impl<'a> Trial<'a> {
         let excused = extreme || self.caveat(Caveat::Undefined).is_some();
         let output = match (self.run(case, input)?, input.check(&self.card)) {
             (Ok(output), Ok(())) => output,
-            (Ok(_), Err(expected)) => return Err(Broken::Careless(expected).on(case)),
+            (Ok(_), Err(expected)) => return Err(Broken::Careless(expected.into()).on(case)),
             (Err(got), Err(expected)) if !same_reason(&got, &expected) => {
-                return Err(Broken::Reason { expected, got }.on(case));
+                return Err(Broken::Reason { expected: expected.into(), got: got.into() }.on(case));
             }
             (Err(got), Ok(())) if !(excused && matches!(got, DenoiseError::Undefined { .. })) => {
-                return Err(Broken::Refuses(got).on(case));
+                return Err(Broken::Refuses(got.into()).on(case));
             }
             (Err(_), _) => {
                 self.refused += 1;

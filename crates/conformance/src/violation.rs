@@ -40,18 +40,18 @@ pub enum Broken {
     Unmet(Vec<Need>),
     /// It runs where its card says that it cannot.
     #[error("runs although {0}")]
-    Careless(DenoiseError),
+    Careless(Box<DenoiseError>),
     /// It refuses for another reason than the first one.
     #[error("refuses with \"{got}\" where the reason is \"{expected}\"")]
     Reason {
         /// What [`noisefloor_denoiser::Input::check`] says.
-        expected: DenoiseError,
+        expected: Box<DenoiseError>,
         /// What it said.
-        got: DenoiseError,
+        got: Box<DenoiseError>,
     },
     /// It refuses a frame that has all it needs, and no caveat says that it may.
     #[error("refuses a frame that has all it needs: {0}")]
-    Refuses(DenoiseError),
+    Refuses(Box<DenoiseError>),
     /// It gives other bits where they must be equal.
     #[error("gives other bits {0}")]
     OtherBits(&'static str),

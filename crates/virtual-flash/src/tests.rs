@@ -78,5 +78,7 @@ fn gaussian_edge(sd: f64) -> SyntheticScene {
 
 #[test]
 fn one_step_and_two_conform() {
-    steps().map(|params| assert_conforms(&VirtualFlash::new(params).unwrap()));
+    for params in steps() {
+        assert_conforms(&VirtualFlash::new(params).unwrap());
+    }
 }

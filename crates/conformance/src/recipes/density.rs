@@ -36,7 +36,7 @@ pub(super) fn run(trial: &mut Trial<'_>) -> Result<Outcome, Violation> {
                 .map_err(|broken| broken.on(case.name.as_ref()))?,
             Err(_) if input.check(&trial.card).is_err() => refused += 1,
             Err(DenoiseError::Undefined { .. }) if trial.caveat(Caveat::Undefined).is_some() => refused += 1,
-            Err(error) => return Err(Broken::Refuses(error).on(case.name.as_ref())),
+            Err(error) => return Err(Broken::Refuses(error.into()).on(case.name.as_ref())),
         }
     }
     Ok(Outcome::Kept { frames: cases.len(), refused })

@@ -39,7 +39,7 @@ pub(super) fn run(trial: &mut Trial<'_>) -> Result<Outcome, Violation> {
         cases.push(Case::edited("depths beyond all measure", |f| {
             if let Some(depth) = f.features.get_mut(&FeatureId::Depth) {
                 let (w, h) = (depth.mean.width(), depth.mean.height());
-                let value = |x: usize| if x % 2 == 0 { f32::INFINITY } else { 3e38 };
+                let value = |x: usize| if x.is_multiple_of(2) { f32::INFINITY } else { 3e38 };
                 depth.mean = Image::from_fn(w, h, 1, |_, x, _| value(x));
             }
         }));

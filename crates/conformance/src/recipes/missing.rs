@@ -8,6 +8,7 @@ use crate::trial::{Trial, completed};
 use crate::{Outcome, Violation};
 
 pub(super) fn run(trial: &mut Trial<'_>) -> Result<Outcome, Violation> {
+    let mut frames = 0;
     for need in trial.card.needs.clone() {
         let mut frame = completed(complete(), &trial.card).into_owned();
         take(&mut frame, &need);
@@ -17,12 +18,13 @@ pub(super) fn run(trial: &mut Trial<'_>) -> Result<Outcome, Violation> {
         // Whoever looks at values before needs finds something else to complain of.
         frame.color.mean.data_mut().fill(f32::NAN);
         trial.judge(&format!("a frame without {need}"), &Input::new(&frame), false)?;
+        frames += 1;
     }
-    Ok(if trial.card.needs.is_empty() {
-        Outcome::Idle("it needs nothing but the colour")
-    } else {
-        trial.kept()
-    })
+    if trial.card.needs.is_empty() {
+        return Ok(Outcome::Idle("it needs nothing but the colour"));
+    }
+    // To refuse is what was asked.
+    Ok(Outcome::Kept { frames, refused: 0 })
 }
 
 /// Takes one input away.
