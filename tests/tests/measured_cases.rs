@@ -1,14 +1,11 @@
 //! Hard cases in figures, for every registered method: how far one bright sample spreads, what becomes of the energy, and
 //! what the exposure does. `cargo test -p noisefloor-tests --test measured_cases -- --nocapture` prints the table.
 
+use noisefloor_conformance::change::{exposed, set_variance};
 use noisefloor_denoiser::{DenoiseError, Denoiser, Input};
 use noisefloor_frame::{Estimate, Frame, Image};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 use serde_json::{Map, Value, json};
-
-mod common;
-
-use common::{scaled, set_variance};
 
 const SIZE: (usize, usize) = (40, 30);
 const SPP: u32 = 16;
@@ -110,7 +107,7 @@ fn figures(label: &str, id: &str, method: &dyn Denoiser) -> Option<Figures> {
     };
     let change = |stops: &i32| {
         let factor = 2f32.powi(*stops);
-        Some(largest_change(&plain, &run(&scaled(&frame, factor))?, f64::from(factor)))
+        Some(largest_change(&plain, &run(&exposed(&frame, factor))?, f64::from(factor)))
     };
     Some(Figures {
         label: label.to_owned(),

@@ -50,6 +50,8 @@ pub enum Verb {
     Record(Record),
     /// List the denoising methods with their parameters, or show one with its page
     Methods(List),
+    /// Run a method through the recipes that every method must keep: one's own, before it is compared
+    Check(Check),
     /// List the built-in scenes with what they model
     Scenes(Scenes),
 }
@@ -363,6 +365,30 @@ pub struct List {
     /// Print the sources of all methods, or that of one, as BibTeX in UTF-8
     #[arg(long, conflicts_with = "json")]
     pub bibtex: bool,
+}
+
+/// `noisefloor check`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  noisefloor check rdfc\n  noisefloor check \"guarded(mc)\" --set guard_level=0.95\n  \
+    noisefloor check command --set run=\"my-denoiser {color.pfm} {output.pfm}\"    a program of your own\n  \
+    noisefloor check --all --json\n\n\
+    A line for each recipe: `pass`; `refused`, all of its frames, as it may; `declared`, not to be kept; `-`, nothing \
+    to ask; or `FAIL` with what broke. The frames are small and made on the spot."
+)]
+pub struct Check {
+    /// Method id; see `noisefloor methods`
+    #[arg(required_unless_present = "all")]
+    pub method: Option<String>,
+    /// Override a parameter; repeatable
+    #[arg(long = "set", value_name = "NAME=VALUE", conflicts_with = "all")]
+    pub set: Vec<String>,
+    /// Every registered method at its defaults
+    #[arg(long, conflicts_with = "method")]
+    pub all: bool,
+    /// Print a JSON array of methods, each with its recipes
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// `noisefloor scenes`.

@@ -135,7 +135,7 @@ fn check_spp(frame: &Path, given: u32) -> anyhow::Result<()> {
 }
 
 /// `name=value` pairs; a value that is no JSON is taken as text.
-fn overrides(pairs: &[String]) -> anyhow::Result<Map<String, Value>> {
+pub fn overrides(pairs: &[String]) -> anyhow::Result<Map<String, Value>> {
     let mut map = Map::new();
     for pair in pairs {
         let (name, value) =

@@ -4,6 +4,7 @@
 //! command with its denoiser in every list, sweep and report.
 
 mod args;
+mod check;
 mod compare;
 mod context;
 mod convert;
@@ -56,6 +57,7 @@ pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode 
         args::Verb::Export(verb) => export::run(&verb),
         args::Verb::Record(verb) => record::run(&verb),
         args::Verb::Methods(verb) => methods::run(&context, &verb),
+        args::Verb::Check(verb) => check::run(&context, &verb),
         args::Verb::Scenes(verb) => scenes::run(&verb),
     };
     match done {

@@ -134,6 +134,9 @@ fn card(card: &MethodCard, full: bool) -> String {
             "  depends on: {}\n",
             or(depends.collect::<Vec<_>>().join(", "), "nothing it should not")
         ));
+        for (caveat, why) in &card.caveats {
+            out.push_str(&format!("  caveat: {caveat} ({why})\n"));
+        }
         for note in &card.notes {
             out.push_str(&format!("  note: {note}\n"));
         }

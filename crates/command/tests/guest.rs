@@ -4,6 +4,7 @@
 use std::time::{Duration, Instant};
 
 use noisefloor_command::{Command, Params, command};
+use noisefloor_conformance::{assert_conforms, check};
 use noisefloor_denoiser::{DenoiseError, Denoiser, Input, Need, Output};
 use noisefloor_frame::{FeatureId, Frame};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
@@ -32,6 +33,16 @@ fn a_copy_gives_back_every_bit_in_both_formats() {
         assert_eq!(output.seconds, None);
         assert_eq!(output.stages.len(), 3);
     }
+}
+
+#[test]
+fn a_copy_conforms_and_a_program_that_fails_does_not() {
+    assert_conforms(&guest("cp {color.pfm} {output.pfm}"));
+    let report = check(&guest("false {color.pfm} {output.pfm}"));
+    assert!(
+        report.to_string().contains("refuses a frame that has all it needs: false ended with code 1"),
+        "{report}"
+    );
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fmt;
 use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
 use noisefloor_stats::Level;
 
-use crate::{Alternative, Citation, param::nearest};
+use crate::{Alternative, Caveat, Citation, param::nearest};
 
 /// One input that a method cannot run without.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -182,6 +182,8 @@ pub struct MethodCard {
     /// What the result depends on although it should not, each with the reason; everything else in [`Invariance`] is a
     /// promise that is tested.
     pub varies_with: Vec<(Invariance, String)>,
+    /// What else it does not promise, each with the reason.
+    pub caveats: Vec<(Caveat, String)>,
     /// Rough cost.
     pub cost: Cost,
     /// What it is there for.
@@ -205,6 +207,7 @@ impl MethodCard {
             neighbors: 0,
             claims: Claims::default(),
             varies_with: Vec::new(),
+            caveats: Vec::new(),
             cost: Cost::Second,
             role: Role::Method,
             notes: Vec::new(),

@@ -4,8 +4,8 @@ use serde_json::Value;
 
 use crate::param::{Param, check, kinds};
 use crate::{
-    Adaptive, BuildError, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output, Unit,
-    half_widths,
+    Adaptive, BuildError, Caveat, Claim, DenoiseError, Denoiser, Input, Method, MethodCard, Need, Output,
+    Unit, half_widths,
 };
 
 /// Projects any method's output into the confidence interval of the input mean:
@@ -96,6 +96,8 @@ impl Denoiser for Guarded {
         card.claims.consistent = true;
         // What the inner method estimates describes its own output, not the projected one.
         card.claims.estimates_error = false;
+        // An interval of no width holds the level of an even image.
+        card.caveats.retain(|(caveat, _)| *caveat != Caveat::Level);
         card.notes.push(format!(
             "projected into the {} % interval of the input mean",
             (100.0 * self.level.confidence() * 1e6).round() / 1e6

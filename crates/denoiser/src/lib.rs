@@ -29,6 +29,7 @@
 
 mod adaptive;
 mod card;
+mod caveat;
 mod citation;
 mod error;
 mod exposure;
@@ -48,6 +49,7 @@ mod tests;
 
 pub use adaptive::Adaptive;
 pub use card::{Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
+pub use caveat::Caveat;
 pub use citation::{Citation, Entry, Published};
 pub use error::DenoiseError;
 pub use exposure::Exposed;

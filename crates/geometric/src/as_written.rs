@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
 use noisefloor_denoiser::{
-    Alternative, DenoiseError, Denoiser, Factory, Input, Invariance, MethodCard, Need, Output, ParamError,
-    Parameters, Role, StageTimer, method,
+    Alternative, Caveat, DenoiseError, Denoiser, Factory, Input, Invariance, MethodCard, Need, Output,
+    ParamError, Parameters, Role, StageTimer, method,
 };
 use noisefloor_frame::{FeatureId, Image};
 
@@ -47,16 +47,21 @@ impl Denoiser for GeometricAsWritten {
         let mut card = MethodCard::new(ID, "Geometric, as written", CITATION);
         card.role = Role::Fixture;
         let exposure = "the radius is a variance".to_owned();
-        let units = "depths are compared in scene units".to_owned();
-        card.varies_with = vec![(Invariance::Exposure, exposure), (Invariance::FeatureUnits, units)];
+        card.varies_with = vec![(Invariance::Exposure, exposure)];
         let p = &self.params;
+        if p.depth_test {
+            let units = "depths are compared in scene units".to_owned();
+            card.varies_with.push((Invariance::FeatureUnits, units));
+        }
         let material = if p.material_ids { Material::Ids } else { Material::Off };
         card.needs = needs(Tests { material, depth: p.depth_test, normal: p.normal_test });
         card.alternatives = untested();
         let ids = Need::Feature(FeatureId::Material);
         card.alternatives.insert(0, Alternative::new("material_ids", false, [ids]));
         card.notes.push("a fixture that keeps the slides' slips: no baseline, sets no axis".into());
-        card.notes.push("undefined wherever the variance is zero".into());
+        let undefined = "wherever the variance is zero, no neighbour has a weight".to_owned();
+        let signs = "weights have either sign".to_owned();
+        card.caveats = vec![(Caveat::Undefined, undefined), (Caveat::Level, signs)];
         card
     }
 

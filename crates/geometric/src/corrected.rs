@@ -90,6 +90,10 @@ impl Denoiser for GeometricCorrected {
         if !relative {
             card.varies_with.push((Invariance::Exposure, "the radius is in radiance".into()));
         }
+        if self.params.spread == Spread::Relative {
+            card.varies_with
+                .push((Invariance::ChannelOrder, "the radius is relative to the luminance".into()));
+        }
         card.notes.push(match self.params.spread {
             Spread::SampleVariance => {
                 "radius from the variance of one sample: depends on exposure, never shrinks, not consistent"

@@ -1,5 +1,6 @@
 mod citations;
 
+use noisefloor_conformance::assert_conforms;
 use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostic, Diagnostics, Input, Need};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Moments, Samples, Sampling, Variance};
 
@@ -68,6 +69,14 @@ fn assert_unmixed(out: &Image, expected: &Image) {
             "{i}: {value}, not {expected}"
         );
     }
+}
+
+#[test]
+fn both_conform() {
+    assert_conforms(&GeometricCorrected::default());
+    // By its letter hardly any frame has an answer; without this test most have.
+    let params = AsWrittenParams { normal_test: false, ..AsWrittenParams::default() };
+    assert_conforms(&GeometricAsWritten::new(params).unwrap());
 }
 
 #[test]

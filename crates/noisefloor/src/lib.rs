@@ -26,6 +26,9 @@
 //! }
 //! ```
 //!
+//! A test of your crate runs it through everything that methods must keep, in one line:
+//! `noisefloor::conformance::assert_conforms(&Mine)`. The command says the same, recipe by recipe: `my-program check mine`.
+//!
 //! The example `box_filter` in this crate is a complete one with a parameter, its check and its claims. What is known only at
 //! run time implements [`Factory`] itself.
 //!
@@ -35,15 +38,15 @@
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
-    Adaptive, Alternative, Bound, BuildError, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser,
-    Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard,
-    Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting, StageSeconds,
-    StageTimer, Unit, choices, method, parameters,
+    Adaptive, Alternative, Bound, BuildError, Caveat, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser, Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard, Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting, StageSeconds, StageTimer, Unit, choices, method, parameters,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,
     Image, PixelFilter, Provenance, Reference, Samples, Sampling, Variance, luminance,
 };
+
+/// Recipes that every method must keep.
+pub use noisefloor_conformance as conformance;
 
 /// Reading and writing frames as OpenEXR.
 pub use noisefloor_io as io;

@@ -1,6 +1,6 @@
 //! What the method needs and what may be claimed for its settings.
 
-use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, Entry, MethodCard, Need, Published};
+use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, Entry, Invariance, MethodCard, Need, Published};
 
 use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};
@@ -25,6 +25,8 @@ pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
     card.needs = needs(params);
     card.alternatives = alternatives(params);
     card.claims = claims(params, steps);
+    card.varies_with =
+        by_luminance(params).map(|why| (Invariance::ChannelOrder, why.into())).into_iter().collect();
     card.notes = notes(params);
     card
 }
@@ -58,6 +60,18 @@ fn needs(params: &Params) -> Vec<Need> {
         needs.push(Need::ColorHalves);
     }
     needs
+}
+
+/// Where channels count by their share in the luminance.
+fn by_luminance(params: &Params) -> Option<&'static str> {
+    let flash = params.guide == GuideKind::Flash;
+    let test = params.homogeneous && params.test == TestKind::Luminance;
+    match (flash, test) {
+        (true, true) => Some("flash intensity and homogeneous pixels are found by luminance"),
+        (true, false) => Some("the flash intensity makes up for missing luminance"),
+        (false, true) => Some("homogeneous pixels are found by luminance"),
+        (false, false) => None,
+    }
 }
 
 /// Other guides for frames without a flash image, and another standard error for frames without halves.

@@ -4,6 +4,7 @@ mod bounds;
 mod citations;
 mod filter;
 
+use noisefloor_conformance::assert_conforms;
 use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostics, Guarded, Input, Need, Output, half_widths};
 use noisefloor_frame::{Estimate, Flash, Frame, Image, Samples, Sampling, Variance};
 use noisefloor_stats::{Level, t_quantile};
@@ -74,4 +75,11 @@ fn steps() -> [Params; 2] {
 fn gaussian_edge(sd: f64) -> SyntheticScene {
     let law = SampleLaw::Gaussian { sd, relative: false };
     SyntheticScene::new(MeanImage::of(ImageKind::Edges), law, 48, 32).unwrap()
+}
+
+#[test]
+fn one_step_and_two_conform() {
+    for params in steps() {
+        assert_conforms(&VirtualFlash::new(params).unwrap());
+    }
 }

@@ -8,8 +8,7 @@ mod tests;
 use std::sync::Arc;
 
 use noisefloor_denoiser::{
-    Citation, Cost, DenoiseError, Denoiser, Entry, Factory, Input, Invariance, MethodCard, Need, Output, ParamError,
-    Parameters, Published, StageTimer,
+    Caveat, Citation, Cost, DenoiseError, Denoiser, Entry, Factory, Input, Invariance, MethodCard, Need, Output, ParamError, Parameters, Published, StageTimer,
 };
 use noisefloor_frame::FeatureId;
 
@@ -66,9 +65,14 @@ impl Denoiser for ATrous {
         }
         card.cost = Cost::Second;
         card.notes.push("depth in place of position".into());
+        if self.params.color_from_level < self.params.levels {
+            let width = "the width for the colour is meant at a mean luminance".to_owned();
+            card.varies_with.push((Invariance::ChannelOrder, width));
+        }
         if self.params.demodulate {
-            let floor = "albedo below 0.001 counts as that".to_owned();
-            card.varies_with.push((Invariance::FeatureUnits, floor));
+            let noise = "the noise of the albedo is divided out of neighbours and multiplied in".to_owned();
+            card.caveats.push((Caveat::Level, noise));
+            card.notes.push("albedo below 0.001 counts as that".into());
         }
         card
     }

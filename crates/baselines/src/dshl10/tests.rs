@@ -1,3 +1,4 @@
+use noisefloor_conformance::assert_conforms;
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling};
 use noisefloor_stats::random::Normals;
@@ -35,6 +36,12 @@ fn open() -> Params {
 fn close(a: &Image, b: &Image, within: f32) {
     let worst = a.data().iter().zip(b.data()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
     assert!(worst <= within, "{worst}");
+}
+
+#[test]
+fn it_conforms() {
+    assert_conforms(&ATrous::default());
+    assert_conforms(&ATrous::new(Params { demodulate: true, ..Params::default() }).unwrap());
 }
 
 #[test]

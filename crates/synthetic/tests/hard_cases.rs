@@ -1,11 +1,7 @@
-//! The hard cases are what their names say, and the check catches what it must.
+//! The hard cases are what their names say.
 
-use noisefloor_denoiser::{
-    Citation, Claim, DenoiseError, Denoiser, Guarded, Input, MethodCard, MonteCarlo, Need, Output,
-};
 use noisefloor_frame::{FeatureId, Flash, Frame};
-use noisefloor_stats::Level;
-use noisefloor_testkit::{HardCase, Survival, check_method, hard_case, hard_cases};
+use noisefloor_synthetic::{HardCase, hard_case, hard_cases};
 
 fn case(name: &str) -> HardCase {
     hard_case(name).unwrap_or_else(|| panic!("no case \"{name}\""))
@@ -13,23 +9,6 @@ fn case(name: &str) -> HardCase {
 
 fn variance(frame: &Frame) -> &[f32] {
     frame.color.variance.as_ref().unwrap().mean_variance().data()
-}
-
-/// A method made of a closure.
-struct Fake<F>(MethodCard, F);
-
-impl<F: Fn(&Frame) -> Result<Output, DenoiseError> + Send + Sync> Denoiser for Fake<F> {
-    fn card(&self) -> MethodCard {
-        self.0.clone()
-    }
-
-    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
-        (self.1)(input.target)
-    }
-}
-
-fn card() -> MethodCard {
-    MethodCard::new("fake", "fake", Citation::new("none", "none"))
 }
 
 #[test]
@@ -99,47 +78,4 @@ fn special_frames_have_their_property() {
     assert!(case("sample counts from 1 on").raw.samples.total().least() == 1);
     assert!(case("no flash").raw.flash.is_none() && case("colour only").raw.features.is_empty());
     assert!(hard_case("no such case").is_none());
-}
-
-#[test]
-fn plain_and_guarded_monte_carlo_survive_everything() {
-    let guarded = Guarded::new(Box::new(MonteCarlo), Level::TWO_SIDED_99);
-    let mut refused = 0;
-    for case in hard_cases() {
-        assert_eq!(check_method(&MonteCarlo, &case), Ok(Survival::Finite));
-        refused += usize::from(check_method(&guarded, &case).unwrap() != Survival::Finite);
-    }
-    // One sample, no variance, and counts from 1 on have no interval to project into.
-    assert_eq!(refused, 3);
-}
-
-#[test]
-fn the_check_names_what_is_wrong() {
-    let case = case("two samples");
-    let message = |fake: &dyn Denoiser| check_method(fake, &case).unwrap_err();
-    let nan = Fake(card(), |f: &Frame| Ok(Output::from_image(f.color.mean.map(|_| f32::NAN))));
-    assert_eq!(message(&nan), "fake on \"two samples\": 2880 output values are not finite");
-    let crop = Fake(card(), |f: &Frame| Ok(Output::from_image(f.color.mean.crop(0, 0, 3, 3))));
-    assert!(message(&crop).contains("output is 3×3×3"));
-    let panics = Fake(card(), |_: &Frame| panic!("out of cheese"));
-    assert!(message(&panics).contains("panics: out of cheese"));
-    let mut needy = card();
-    needy.needs.push(Need::Samples(4));
-    let careless = Fake(needy, |f: &Frame| Ok(Output::from_image(f.color.mean.clone())));
-    assert!(message(&careless).contains("although inputs are missing"));
-    let mut bold = card();
-    bold.claims.enclosure.push(Claim {
-        name: "interval".into(),
-        terms: vec![(1.0, Level::TWO_SIDED_99)],
-        level: Level::TWO_SIDED_99,
-        proven: true,
-    });
-    let leaves = Fake(bold, |f: &Frame| Ok(Output::from_image(f.color.mean.map(|v| v + 1e3))));
-    assert!(message(&leaves).contains("leaves the enclosure \"interval\""));
-    let count = std::sync::atomic::AtomicU32::new(0);
-    let moody = Fake(card(), |f: &Frame| {
-        let n = count.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
-        Ok(Output::from_image(f.color.mean.map(|v| v + n as f32)))
-    });
-    assert!(message(&moody).contains("other bits"));
 }

@@ -1,13 +1,13 @@
 //! Statistical claims on frames with exact truth.
 
+use noisefloor_conformance::Tolerance;
 use noisefloor_denoiser::{Citation, DenoiseError, Denoiser, Guarded, Input, MethodCard, Output};
 use noisefloor_frame::{Frame, Image, Variance};
 use noisefloor_stats::{
     BoundTally, Counts, CoverageTally, Level, Observed, Truth, bound_violations, clustered_rate, coverage,
     half_widths,
 };
-use noisefloor_testkit::Tolerance;
-use noisefloor_testkit::synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
+use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
 const LEVELS: [Level; 3] = [Level::TWO_SIDED_95, Level::TWO_SIDED_99, Level::TWO_SIDED_998];
 const GAUSSIAN: SampleLaw = SampleLaw::Gaussian { sd: 0.4, relative: false };
