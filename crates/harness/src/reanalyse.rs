@@ -12,11 +12,11 @@ use crate::machine;
 use crate::recorded::KeptStudy;
 use crate::store::{FolderImages, Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
 use noisefloor_questions::{Kept as Where, PixelClasses, measure_metrics, measuring, summarise};
-use noisefloor_study::{Study, metric};
 use noisefloor_study::context::{Context, SceneContext};
 use noisefloor_study::files;
 use noisefloor_study::record::Record;
 use noisefloor_study::summary::Summary;
+use noisefloor_study::{Study, metric};
 
 /// Makes the analysis of a study's folder again and writes `summary.json`. Nothing is rendered or denoised; a study
 /// that was stopped, or is running, is analysed as far as it went.

@@ -1,8 +1,4 @@
-//! One folder for each question that is put to the data of a study.
-//!
-//! A question has up to four parts, each in a file of its own: what it *measures* of a finished cell, what it *analyses* of
-//! all records, what a reader sees of it (its *exhibit*), and its paragraph of the methodology. [`QUESTIONS`] is the list
-//! of all; whoever runs a study asks every one of them and knows none.
+#![doc = include_str!("../README.md")]
 
 mod bounds;
 mod breakage;

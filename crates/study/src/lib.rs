@@ -1,12 +1,4 @@
-//! Studies as plain data: study files, plans, records of cells, summaries, and exhibits for a reader.
-//!
-//! What runs a study, what analyses it and what shows it meet here. Nothing in this crate renders, denoises or spawns a
-//! thread, so that a report, a merge or a binding to another language needs no more than this.
-//!
-//! * A [`Study`] is a file: scenes, samples per pixel, replicates, rows of methods, metrics.
-//! * A [`record::Record`] is one finished cell: scene × samples per pixel × replicate × row.
-//! * A [`summary::Summary`] is the analysis: averages over replicates, each number with its uncertainty.
-//! * An [`exhibit::Document`] is what a reader sees of it: sentences, tables, charts.
+#![doc = include_str!("../README.md")]
 
 mod bits;
 pub mod context;

@@ -1,6 +1,8 @@
 //! What the method needs and what may be claimed for its settings.
 
-use noisefloor_denoiser::{Alternative, Citation, Claim, Claims, Entry, Invariance, MethodCard, Need, Published};
+use noisefloor_denoiser::{
+    Alternative, Citation, Claim, Claims, Entry, Invariance, MethodCard, Need, Published,
+};
 
 use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};

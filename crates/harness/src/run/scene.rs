@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use noisefloor_frame::{Finding, FindingKind};
 use noisefloor_questions::Measure;
-use noisefloor_study::{Key, metric};
 use noisefloor_study::context::SceneContext;
 use noisefloor_study::record::{NonFinite, Outcome};
+use noisefloor_study::{Key, metric};
 
 use crate::error::HarnessError;
 use crate::observer::Stage;
