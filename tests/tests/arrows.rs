@@ -176,3 +176,32 @@ fn arrows_inside_crates_go_down_only() {
     assert!(looked > 500, "only {looked} arrows: the files are not read as they are written");
     assert!(wrong.is_empty(), "files in circles:\n{}", wrong.join("\n"));
 }
+
+/// Crates of ours that a crate needs, itself among them, development dependencies left out.
+fn needs(name: &str, crates: &Path, found: &mut BTreeSet<String>) {
+    if !found.insert(name.to_owned()) {
+        return;
+    }
+    let manifest = std::fs::read_to_string(crates.join(name).join("Cargo.toml")).unwrap();
+    let sections = manifest.split("\n[").filter(|section| section.starts_with("dependencies]"));
+    for line in sections.flat_map(str::lines).filter_map(|line| line.strip_prefix("noisefloor-")) {
+        let other = line.split(['.', ' ', '=']).next().unwrap_or_default();
+        needs(if other == "gltf" { "gltf-scene" } else { other }, crates, found);
+    }
+}
+
+#[test]
+fn pages_and_records_do_without_the_renderer() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    for name in ["study", "questions", "report"] {
+        let mut found = BTreeSet::new();
+        needs(name, &crates, &mut found);
+        assert!(found.len() > 3, "{name}: its manifest is not read as it is written: {found:?}");
+        for absent in ["render", "harness", "registry", "cli"] {
+            assert!(!found.contains(absent), "{name} needs {absent}");
+        }
+    }
+    let mut of_report = BTreeSet::new();
+    needs("report", &crates, &mut of_report);
+    assert!(!of_report.contains("questions"), "the report knows a question");
+}

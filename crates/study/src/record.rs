@@ -115,6 +115,9 @@ pub struct Record {
     /// The method's estimate of its own squared error beside the measured one; absent if its output has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<EstimateCheck>,
+    /// What questions measured that have no field of their own here, by the question's id.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub answers: BTreeMap<String, Value>,
     /// Pixels replaced or counted as non-finite in the input and output.
     #[serde(default)]
     pub non_finite: NonFinite,

@@ -64,6 +64,7 @@ impl Runner<'_> {
             bounds: Vec::new(),
             enclosures: Vec::new(),
             error_estimate: None,
+            answers: BTreeMap::new(),
             non_finite: NonFinite::default(),
             findings: Vec::new(),
             figures: BTreeMap::new(),
