@@ -33,6 +33,6 @@ pub use error::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub use flicker::{Images, Sequences, flicker};
 pub use measuring::measuring;
 pub use question::{QUESTIONS, Question, measure};
-pub use readme::{Asked, Block, Chosen, Kind, readme_table};
+pub use readme::{Asked, Block, Kind, readme_table};
 pub use records::median;
 pub use summarise::{Kept, summarise};

@@ -39,7 +39,8 @@ fn errors(view: &View<'_>) -> Option<Exhibit> {
         let trimmed = of("relmse_trimmed");
         let note = "Not comparable with the plots above: each row leaves out its own worst pixels.";
         let folded = vec![Part::Note(note.into()), Part::Charts(trimmed.clone())];
-        parts.extend((!trimmed.is_empty()).then(|| Part::folded("Without the worst 0.1 % of pixels", folded)));
+        parts
+            .extend((!trimmed.is_empty()).then(|| Part::folded("Without the worst 0.1 % of pixels", folded)));
     }
     let (name, title) = match lines {
         true => ("Convergence", "Convergence: error against samples"),

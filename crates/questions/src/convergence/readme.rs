@@ -1,6 +1,7 @@
 use crate::readme::{Block, Chosen, Kind, lines};
 
-pub(super) const KINDS: &[Kind] = &[Kind { name: "slopes", keys: &["metric", "scenes", "rows"], make: slopes }];
+pub(super) const KINDS: &[Kind] =
+    &[Kind { name: "slopes", keys: &["metric", "scenes", "rows"], make: slopes }];
 
 fn slopes(chosen: &Chosen<'_>) -> Vec<Block> {
     let several = chosen.scenes.len() > 1;

@@ -56,7 +56,9 @@ fn findings(findings: &[Finding]) -> Vec<String> {
     let mut groups: Vec<(Vec<&str>, FindingKind, &str)> = Vec::new();
     for finding in findings {
         let same = |(subjects, kind, text): &&mut (Vec<&str>, FindingKind, &str)| {
-            !finding.subject.is_empty() && !subjects.is_empty() && (*kind, *text) == (finding.kind, &finding.text)
+            !finding.subject.is_empty()
+                && !subjects.is_empty()
+                && (*kind, *text) == (finding.kind, &finding.text)
         };
         let subject = Some(finding.subject.as_str()).filter(|subject| !subject.is_empty());
         match groups.iter_mut().find(same) {

@@ -39,6 +39,10 @@ fn row(view: &View<'_>, scene: &SceneSummary, spp: u32, method: &MethodSummary) 
         label: label.clone(),
         image: image.cloned().unwrap_or_default(),
         value: interval.map(|i| format::interval(i).value).unwrap_or_default(),
-        diagnostics: diagnostics.into_iter().flatten().map(|(name, path)| (name.clone(), path.clone())).collect(),
+        diagnostics: diagnostics
+            .into_iter()
+            .flatten()
+            .map(|(name, path)| (name.clone(), path.clone()))
+            .collect(),
     })
 }

@@ -48,8 +48,7 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 
 /// Samples per pixel that the times of this run would buy.
 pub(super) fn implied(e: &EqualTime) -> Cell {
-    e.implied
-        .map_or_else(Cell::none, |n| Cell::text(format::significant(n, 3)).number(Number::exact(n)))
+    e.implied.map_or_else(Cell::none, |n| Cell::text(format::significant(n, 3)).number(Number::exact(n)))
 }
 
 /// A time in one unit for the whole table, so that its rows can be divided by each other in the head.

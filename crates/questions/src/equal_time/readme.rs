@@ -6,8 +6,16 @@ use crate::readme::{Block, Chosen, Kind, headed_by, push};
 pub(super) const KINDS: &[Kind] = &[Kind { name: "equal-time", keys: &[], make: equal_time }];
 
 fn equal_time(chosen: &Chosen<'_>) -> Vec<Block> {
-    let heads =
-        ["scene", "row", "as much time as", "level", "used", "implied by this run", "denoising", "one sample"];
+    let heads = [
+        "scene",
+        "row",
+        "as much time as",
+        "level",
+        "used",
+        "implied by this run",
+        "denoising",
+        "one sample",
+    ];
     let mut out = headed_by("equal-time", &heads);
     for e in &chosen.view.summary.equal_time {
         let cells = vec![

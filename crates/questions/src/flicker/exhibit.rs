@@ -50,7 +50,9 @@ fn empty(f: &FlickerSummary) -> Table {
             "{} was subtracted: the references' own noise, the mean of their variances.",
             format::significant(variance, 2)
         ),
-        None => "A reference states no variance: its own noise was not subtracted and counts as flicker.".into(),
+        None => {
+            "A reference states no variance: its own noise was not subtracted and counts as flicker.".into()
+        }
     };
     Table {
         id: format!("flicker-{}", file_name(&f.sequence)),

@@ -102,7 +102,7 @@ fn verdict(ours: &Interval, paper: PaperRatio) -> Agreement {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use noisefloor_study::summary::{Source, Summary};
+    use noisefloor_study::summary::Source;
 
     fn told(low: f64, high: f64, paper: [f64; 2]) -> Agreement {
         let ours = Interval {

@@ -115,7 +115,8 @@ fn cause(view: &View<'_>, broken: &[&BoundSummary], worst: &BoundSummary) -> Opt
 }
 
 fn enclosures(view: &View<'_>, told: &mut Told) {
-    let Some(worst) = view.summary.cells.iter().filter_map(|c| c.enclosure_worst_ratio).reduce(f64::max) else {
+    let Some(worst) = view.summary.cells.iter().filter_map(|c| c.enclosure_worst_ratio).reduce(f64::max)
+    else {
         return;
     };
     if worst <= 1.0 {

@@ -69,7 +69,8 @@ pub(super) fn parts(view: &View<'_>, promises: &Promises<'_>, name: &str) -> Vec
         columns.extend(promises.spp.iter().map(|&spp| shown::level_column(spp)));
         columns
     };
-    let rows = |claims: Vec<&Promise<'_>>, by_class| claims.into_iter().map(|p| row(view, p, by_class)).collect();
+    let rows =
+        |claims: Vec<&Promise<'_>>, by_class| claims.into_iter().map(|p| row(view, p, by_class)).collect();
     let table = Table {
         id: format!("bounds-{name}"),
         columns: columns(false),

@@ -2,10 +2,7 @@ use noisefloor_study::exhibit::Point;
 
 /// The border of what the points reach, with right angles. Rows over other frames or fewer pixels are shown, and beat
 /// nothing.
-pub(super) fn front<'a>(
-    points: impl Iterator<Item = &'a Point>,
-    lower_is_better: bool,
-) -> Vec<(f64, f64)> {
+pub(super) fn front<'a>(points: impl Iterator<Item = &'a Point>, lower_is_better: bool) -> Vec<(f64, f64)> {
     let ranked: Vec<(f64, f64)> = points.filter(|p| !p.doubtful).map(|p| (p.x, p.y)).collect();
     staircase(&unbeaten(ranked, lower_is_better))
 }

@@ -71,7 +71,9 @@ pub(super) fn parts(covered: &Covered<'_>, name: &str) -> Vec<Part> {
     let mut parts = vec![Part::Table(table)];
     if !classes.is_empty() {
         let rows = classes.into_iter().map(|(class, spp, cells)| {
-            TableRow::new([Cell::text(*class), Cell::count((*spp).into())].into_iter().chain(cells.clone()).collect())
+            TableRow::new(
+                [Cell::text(*class), Cell::count((*spp).into())].into_iter().chain(cells.clone()).collect(),
+            )
         });
         let table = Table {
             id: format!("coverage-{name}-classes"),

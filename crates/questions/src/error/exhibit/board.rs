@@ -24,10 +24,7 @@ pub(crate) fn board(view: &View<'_>) -> Option<Table> {
     });
     Some(Table {
         id: "board".into(),
-        caption: format!(
-            "Best {} at each level, and how far below the unfiltered input",
-            view.primary().1
-        ),
+        caption: format!("Best {} at each level, and how far below the unfiltered input", view.primary().1),
         rows: rows.collect(),
         columns: std::iter::once(Column::text("Scene")).chain(study.spp.iter().map(column)).collect(),
         notes: Vec::new(),

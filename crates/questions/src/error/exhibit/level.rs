@@ -97,10 +97,7 @@ impl<'a> Standings<'a> {
 fn skipped(view: &View<'_>, scene: &str, spp: u32) -> Vec<TableRow> {
     let here = view.summary.skipped.iter().filter(|s| s.scene == scene && s.spp.contains(&spp));
     here.map(|s| TableRow {
-        cells: vec![
-            view.row_cell(&s.label),
-            Cell::text(&s.reason).tag(s.status.name(), Tone::Plain, ""),
-        ],
+        cells: vec![view.row_cell(&s.label), Cell::text(&s.reason).tag(s.status.name(), Tone::Plain, "")],
         state: RowState::Absent,
     })
     .collect()

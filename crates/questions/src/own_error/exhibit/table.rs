@@ -51,8 +51,7 @@ fn tone(verdict: Calibration) -> Tone {
 
 /// Which image it is about, and what is left out.
 fn note(e: &EstimateSummary) -> String {
-    let about =
-        e.of.as_ref().map_or_else(String::new, |of| format!("both of the {of}, not of the output"));
+    let about = e.of.as_ref().map_or_else(String::new, |of| format!("both of the {of}, not of the output"));
     let left_out = match e.non_finite {
         0 => String::new(),
         n => format!("{} without a finite estimate are left out", format::plural(n as usize, "value")),
