@@ -11,8 +11,9 @@ pub(super) use answer::answer;
 use crate::view::View;
 use chart::{Time, chart};
 
-const NOTE: &str = "One line per method through its sample counts, from few to many. The front joins what no other point beats in both \
-    error and time.";
+const LINES: &str = "One line per method through its sample counts, from few to many.";
+const POINTS: &str = "One point per method.";
+const FRONT: &str = "The front joins what no other point beats in both error and time.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     let metric = view.summary.study.primary_metric.as_str();
@@ -24,7 +25,9 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     if total.is_empty() && denoise.is_empty() {
         return Vec::new();
     }
-    let mut parts = vec![Part::Note(NOTE.into())];
+    let panels = || total.iter().chain(&denoise).flat_map(|chart| &chart.panels);
+    let lines = panels().flat_map(|panel| &panel.series).any(|series| series.points.len() > 1);
+    let mut parts = vec![Part::Note(format!("{} {FRONT}", if lines { LINES } else { POINTS }))];
     if !total.is_empty() {
         parts.push(Part::Heading("Render and denoise".into()));
         parts.push(Part::Charts(total));

@@ -4,7 +4,7 @@ use noisefloor_study::summary::{MethodSummary, SceneSummary};
 
 use crate::view::View;
 
-/// The images that the page can show, of the levels that the study chose for it.
+/// The images that the page can show, of the levels that the study chose for it; scenes without any are absent.
 pub(super) fn gallery(view: &View<'_>) -> Vec<GalleryScene> {
     let study = &view.summary.study;
     let mut levels = if study.viewer_spp.is_empty() { study.spp.clone() } else { study.viewer_spp.clone() };
@@ -17,7 +17,8 @@ pub(super) fn gallery(view: &View<'_>) -> Vec<GalleryScene> {
         reference: scene.reference_image.clone(),
         levels: levels.iter().filter_map(|&spp| level(view, scene, spp)).collect(),
     };
-    view.summary.scenes.iter().map(of_scene).collect()
+    let shows = |scene: &GalleryScene| !scene.reference.is_empty() || !scene.levels.is_empty();
+    view.summary.scenes.iter().map(of_scene).filter(shows).collect()
 }
 
 fn level(view: &View<'_>, scene: &SceneSummary, spp: u32) -> Option<GalleryLevel> {

@@ -1,7 +1,7 @@
 //! Charts: which points, guides and panels are drawn.
 
 use noisefloor_questions::document;
-use noisefloor_study::exhibit::{Chart, Form, Guide, Look, Scale};
+use noisefloor_study::exhibit::{Chart, Document, Form, Guide, Look, Part, Scale};
 use noisefloor_study::summary::Summary;
 
 use crate::fixture::{single_level, study};
@@ -44,6 +44,12 @@ fn a_single_level_is_drawn_as_bars_and_not_as_a_column_of_dots() {
     assert!(exhibit(&shown, "convergence").unwrap().title.contains("single level"));
     // A scatter of time and error stays one.
     assert_eq!(chart(&shown, "speed-rings-total").panels[0].form, Form::Lines);
+    let note = |shown: &Document| match &exhibit(shown, "speed").unwrap().parts[0] {
+        Part::Note(note) => note.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert!(note(&shown).starts_with("One point per method."));
+    assert!(note(&document(&study())).starts_with("One line per method"));
     assert_eq!(chart(&document(&study()), "convergence-rings-relmse").panels[0].form, Form::Lines);
 }
 

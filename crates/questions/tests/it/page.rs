@@ -135,6 +135,13 @@ fn the_gallery_has_the_levels_that_the_study_chose() {
     assert_eq!(rows.iter().map(|row| row.label.as_str()).collect::<Vec<_>>(), ROWS.map(|row| row.0));
     assert_eq!((rows[0].value.as_str(), rows[0].image.as_str()), ("0.0312", "images/0-0-64.exr"));
     assert_eq!(rows[1].diagnostics.len(), 2);
+    let mut recorded = study();
+    for scene in &mut recorded.scenes {
+        scene.images.clear();
+        scene.diagnostics.clear();
+        scene.reference_image.clear();
+    }
+    assert!(document(&recorded).gallery.is_empty(), "a recorded study has no images");
 }
 
 #[test]

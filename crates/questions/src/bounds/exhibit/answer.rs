@@ -102,15 +102,16 @@ fn cause(view: &View<'_>, broken: &[&BoundSummary], worst: &BoundSummary) -> Opt
     }
     let missed = match worst.missed > 0.0 {
         true => format!(
-            "; in the worst cell, {} of the violations are at pixels where no sample met one",
+            " ({} of the violations in the worst cell are at pixels that met none)",
+            // A mean over replicates and a share of all counts: rounding may part them.
             format::percent((worst.missed / worst.violations.value).min(1.0))
         ),
         false => String::new(),
     };
     Some(format!(
-        "The light breaks them, not the program: the certain half of the claim held, no output left its interval around the noisy \
-         mean. So that mean itself is farther from the truth than the normal samples that the bound assumes would leave it, as with \
-         skewed light, whose rare bright events many pixels meet too seldom or never{missed}."
+        "The light breaks them, not the program: no output left its interval around the noisy mean, so it is this mean that misses the \
+         truth more often than the normal samples that the bound assumes would let it. Skewed light does that: its rare bright events \
+         are met too seldom by many pixels, or never{missed}."
     ))
 }
 
