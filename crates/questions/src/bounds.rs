@@ -3,6 +3,7 @@
 mod analyse;
 mod exhibit;
 mod measure;
+mod readme;
 
 use noisefloor_study::exhibit::{Answer, Exhibit};
 use noisefloor_study::record::Record;
@@ -10,6 +11,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -38,7 +40,11 @@ impl Question for Bounds {
         exhibit::answer(view)
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

@@ -4,14 +4,16 @@ mod analyse;
 mod builds;
 mod exhibit;
 mod progress;
+mod readme;
 mod warnings;
 
 pub use warnings::violations;
 
-use noisefloor_study::exhibit::{Answer, Exhibit};
+use noisefloor_study::exhibit::Answer;
 use noisefloor_study::summary::Summary;
 
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -36,7 +38,7 @@ impl Question for Breakage {
         exhibit::answer(view)
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

@@ -1,6 +1,9 @@
 //! Which rows can the replicates tell apart?
 
 mod analyse;
+mod exhibit;
+
+pub(crate) use exhibit::pairs;
 
 use noisefloor_study::summary::Summary;
 

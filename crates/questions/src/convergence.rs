@@ -2,11 +2,15 @@
 
 mod analyse;
 mod exhibit;
+mod readme;
+
+pub(crate) use exhibit::chart;
 
 use noisefloor_study::exhibit::Exhibit;
 use noisefloor_study::summary::Summary;
 
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -27,7 +31,11 @@ impl Question for Convergence {
         analyse::analyse(records, summary);
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

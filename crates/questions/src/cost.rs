@@ -24,7 +24,7 @@ impl Question for Cost {
         exhibit::answer(view)
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
     }
 }

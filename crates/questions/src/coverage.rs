@@ -3,6 +3,7 @@
 mod analyse;
 mod exhibit;
 mod measure;
+mod readme;
 
 pub(crate) use analyse::mark;
 
@@ -12,6 +13,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -36,7 +38,11 @@ impl Question for Coverage {
         analyse::analyse(records, summary);
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

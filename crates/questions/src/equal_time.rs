@@ -2,11 +2,13 @@
 
 mod analyse;
 mod exhibit;
+mod readme;
 
 use noisefloor_study::exhibit::Exhibit;
 use noisefloor_study::summary::Summary;
 
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -27,7 +29,11 @@ impl Question for EqualTime {
         analyse::analyse(records, summary);
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

@@ -4,8 +4,10 @@ mod analyse;
 mod exhibit;
 mod measure;
 mod ratio;
+mod readme;
 
 pub(crate) use analyse::monte_carlo;
+pub(crate) use exhibit::{board, cards};
 pub use measure::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub(crate) use ratio::ratio_within_se;
 
@@ -15,6 +17,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -43,7 +46,11 @@ impl Question for Error {
         exhibit::answer(view)
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

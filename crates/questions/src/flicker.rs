@@ -4,6 +4,7 @@ mod analyse;
 mod exhibit;
 mod measure;
 mod over_time;
+mod readme;
 
 pub use measure::{Images, Sequences, flicker};
 
@@ -11,6 +12,7 @@ use noisefloor_study::exhibit::Exhibit;
 use noisefloor_study::summary::Summary;
 
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -31,7 +33,11 @@ impl Question for Flicker {
         analyse::analyse(records, summary);
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

@@ -3,6 +3,7 @@
 mod analyse;
 mod exhibit;
 mod measure;
+mod readme;
 
 use noisefloor_study::exhibit::Exhibit;
 use noisefloor_study::record::Record;
@@ -10,6 +11,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -34,7 +36,11 @@ impl Question for OwnError {
         analyse::analyse(records, summary);
     }
 
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
-        exhibit::exhibit(view)
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
+        exhibit::exhibits(view)
+    }
+
+    fn readme(&self) -> &'static [Kind] {
+        readme::KINDS
     }
 }

@@ -5,6 +5,7 @@ use noisefloor_study::record::Record;
 use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
+use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
@@ -36,10 +37,16 @@ pub trait Question: Sync {
         None
     }
 
-    /// What a reader sees; nothing where the study has nothing to show.
-    fn exhibit(&self, view: &View<'_>) -> Option<Exhibit> {
+    /// What a reader sees; nothing where the study has nothing to show. The first of every question come before the
+    /// further ones.
+    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
         let _ = view;
-        None
+        Vec::new()
+    }
+
+    /// Tables that it has for a README.
+    fn readme(&self) -> &'static [Kind] {
+        &[]
     }
 }
 

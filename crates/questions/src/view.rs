@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_study::exhibit::{RowKind, RowLook};
+use noisefloor_study::exhibit::{Cell, RowKind, RowLook};
 use noisefloor_study::summary::{
     CellSummary, Comparison, MethodSummary, MetricInfo, Progress, SceneSummary, Summary,
 };
@@ -77,7 +77,7 @@ impl<'a> View<'a> {
     /// Ranked rows of a level, best first: the comparison's ranking, else by the value itself. Rows that are left out of
     /// it are not among them.
     pub(crate) fn ranking(&self, scene: &str, spp: u32, metric: &str) -> Vec<&'a str> {
-        let lower = self.metric(metric).is_none_or(|m| m.lower_is_better);
+        let lower = self.lower_is_better(metric);
         let mut rows: Vec<(&'a str, f64)> = self
             .summary
             .methods
@@ -151,6 +151,27 @@ impl<'a> View<'a> {
         self.summary.methods.iter().position(|m| m.label == label).unwrap_or(0)
     }
 
+    /// The name of a row with its look.
+    pub(crate) fn row_cell(&self, label: &str) -> Cell {
+        Cell::row(label, self.row(label))
+    }
+
+    /// Whether smaller values of a metric are better; also where that is not known.
+    pub(crate) fn lower_is_better(&self, metric: &str) -> bool {
+        self.metric(metric).is_none_or(|m| m.lower_is_better)
+    }
+
+    /// What the best value of a metric is called.
+    pub(crate) fn best_word(&self, metric: &str) -> &'static str {
+        if self.lower_is_better(metric) { "lowest" } else { "highest" }
+    }
+
+    /// Id and name of the study's first metric.
+    pub(crate) fn primary(&self) -> (&'a str, String) {
+        let id = self.summary.study.primary_metric.as_str();
+        (id, self.metric_name(id))
+    }
+
     /// How the rows look: a guarded row takes the colour of the row that it guards, one on frames of its own that of the
     /// same method on the study's.
     pub(crate) fn looks(&self) -> Vec<RowLook> {
@@ -169,8 +190,7 @@ impl<'a> View<'a> {
     pub(crate) fn file_names(&self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
         for (i, scene) in self.summary.scenes.iter().enumerate() {
-            let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
-            let mut name: String = scene.id.chars().map(safe).take(60).collect();
+            let mut name = file_name(&scene.id);
             if name.is_empty() || names.contains(&name) {
                 name = format!("{name}-{}", i + 1);
             }
@@ -179,11 +199,22 @@ impl<'a> View<'a> {
         names
     }
 
+    /// The scenes with their ids as parts of file names.
+    pub(crate) fn named_scenes(&self) -> impl Iterator<Item = (&'a SceneSummary, String)> + use<'a> {
+        self.summary.scenes.iter().zip(self.file_names())
+    }
+
     /// Whether the study wants charts of this kind.
     pub(crate) fn draws(&self, kind: &str) -> bool {
         let chosen = &self.summary.study.figures;
         chosen.is_empty() || chosen.iter().any(|figure| figure == kind)
     }
+}
+
+/// A name as part of file names: letters, digits, `-` and `_`.
+pub(crate) fn file_name(name: &str) -> String {
+    let safe = |c: char| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' };
+    name.chars().map(safe).take(60).collect()
 }
 
 /// Place of the row that this one is a variant of, if both are rows of the study: `guarded(x) more` guards `x more`, else a

@@ -1,9 +1,38 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::Exhibit;
+mod chart;
+mod table;
+
+use noisefloor_study::exhibit::{Exhibit, Part};
+
+pub(super) use table::{Covered, covered};
 
 use crate::view::View;
 
-pub(super) fn exhibit(_view: &View<'_>) -> Option<Exhibit> {
-    None
+const NOTE: &str = "How often Student's interval around the noisy mean contains the truth, allowing for the noise of the reference. \
+    Pixels whose samples are all equal have no interval: they count as covered if their value is right (“constant”), else as “missed \
+    events”.";
+
+pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
+    let mut tables = Vec::new();
+    let mut charts = Vec::new();
+    for (scene, name) in view.named_scenes() {
+        if let Some(covered) = covered(view, &scene.id) {
+            tables.push(Part::Heading(scene.title.clone()));
+            tables.extend(table::parts(&covered, &name));
+            charts.extend(chart::chart(view, scene, &name).filter(|_| view.draws("coverage")));
+        }
+    }
+    if tables.is_empty() {
+        return Vec::new();
+    }
+    let mut parts = vec![Part::Note(NOTE.into())];
+    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
+    parts.extend(tables);
+    vec![Exhibit {
+        id: "coverage".into(),
+        name: "Coverage".into(),
+        title: "Coverage of the input's confidence intervals".into(),
+        parts,
+    }]
 }

@@ -1,9 +1,92 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::Exhibit;
+use noisefloor_study::exhibit::{Cell, Column, Exhibit, Number, Part, Table, TableRow, Tone};
+use noisefloor_study::format;
+use noisefloor_study::summary::{Agreement, PaperResult};
 
+use crate::shown;
 use crate::view::View;
 
-pub(super) fn exhibit(_view: &View<'_>) -> Option<Exhibit> {
-    None
+const NOTE: &str = "Ratio of two rows' errors, geometric mean over replicates on the same frames with its 95 % interval, beside \
+    the ratio that the source reports. “Agrees”: the interval meets the source's number or range. “Opposite sign”: ours and the \
+    source's are on different sides of 1. The scenes are analogues of the source's, so agreement is about the effect and not about \
+    digits.";
+
+pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
+    if view.summary.paper.is_empty() {
+        return Vec::new();
+    }
+    let columns = vec![
+        Column::text("What"),
+        Column::text("Scene"),
+        Column::number("spp").unit("spp"),
+        Column::number("Ours"),
+        Column::number("The paper's"),
+        Column::text("Source"),
+        Column::text("In words"),
+    ];
+    let rows = view.summary.paper.iter().map(|result| row(view, result)).collect();
+    let table = Table { id: "paper".into(), columns, rows, ..Table::default() };
+    vec![Exhibit {
+        id: "paper".into(),
+        name: "Source work".into(),
+        title: "Beside the source work".into(),
+        parts: vec![Part::Note(NOTE.into()), Part::Table(table)],
+    }]
+}
+
+fn row(view: &View<'_>, r: &PaperResult) -> TableRow {
+    let metric = view.metric_name(&r.metric);
+    let details = format!("{metric} of {} over {metric} of {}", r.row, r.over);
+    TableRow::new(vec![
+        Cell::text(&r.what).about(details),
+        Cell::text(view.scene_title(&r.scene)),
+        Cell::count(r.spp.into()),
+        ours(r),
+        theirs(r),
+        Cell::text(&r.source),
+        Cell::text(r.verdict.name()).tone(tone(r.verdict)).aside(r.reason.clone().unwrap_or_default()),
+    ])
+}
+
+/// Our ratio.
+pub(super) fn ours(r: &PaperResult) -> Cell {
+    r.ours.as_ref().map_or_else(Cell::none, shown::value)
+}
+
+/// The source's ratio; a range is no single number.
+pub(super) fn theirs(r: &PaperResult) -> Cell {
+    let [low, high] = r.paper;
+    Cell { number: (low == high).then(|| Number::exact(low)), ..Cell::text(range(r.paper)) }
+}
+
+fn tone(verdict: Agreement) -> Tone {
+    match verdict {
+        Agreement::Agrees => Tone::Good,
+        Agreement::Opposite => Tone::Bad,
+        Agreement::LargerGain
+        | Agreement::SmallerGain
+        | Agreement::LargerLoss
+        | Agreement::SmallerLoss
+        | Agreement::Undecided
+        | Agreement::NoNumber => Tone::Plain,
+    }
+}
+
+/// `0.36`, or `0.0082 to 0.36`: as many digits as the source gives.
+fn range([low, high]: [f64; 2]) -> String {
+    let plain = |v: f64| if (1e-4..1e6).contains(&v) { v.to_string() } else { format::significant(v, 3) };
+    if low == high { plain(low) } else { format!("{} to {}", plain(low), plain(high)) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::range;
+
+    #[test]
+    fn the_sources_numbers_keep_their_digits() {
+        assert_eq!(range([0.36, 0.36]), "0.36");
+        assert_eq!(range([0.0082, 0.36]), "0.0082 to 0.36");
+        assert_eq!(range([0.000_02, 1.0]), "2.00×10⁻⁵ to 1");
+    }
 }

@@ -1,0 +1,87 @@
+use std::collections::BTreeSet;
+
+use noisefloor_study::exhibit::{Cell, Column, Part, Table, TableRow};
+use noisefloor_study::format;
+use noisefloor_study::summary::CoverageSummary;
+
+use crate::charts::distinct_values;
+use crate::shown;
+use crate::view::View;
+
+/// Coverage on one scene.
+pub(in crate::coverage) struct Covered<'a> {
+    /// Nominal levels, ascending.
+    pub(in crate::coverage) nominal: Vec<f64>,
+    /// Class and level in samples per pixel with the cells of the nominal levels, of constant and of missed pixels.
+    pub(in crate::coverage) rows: Vec<(&'a str, u32, Vec<Cell>)>,
+    marks: Vec<String>,
+}
+
+/// Coverage of a scene; nothing if it was not measured.
+pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<Covered<'a>> {
+    let all: Vec<&CoverageSummary> = view.summary.coverage.iter().filter(|c| c.scene == scene).collect();
+    let nominal = distinct_values(all.iter().map(|c| c.confidence));
+    if nominal.is_empty() {
+        return None;
+    }
+    let keys: BTreeSet<(&str, u32)> = all.iter().map(|c| (c.class.as_str(), c.spp)).collect();
+    let row = |(class, spp): (&'a str, u32)| {
+        let here: Vec<&CoverageSummary> =
+            all.iter().filter(|c| c.class == class && c.spp == spp).copied().collect();
+        let mut cells: Vec<Cell> = nominal.iter().map(|level| cell(&here, *level)).collect();
+        // The split does not depend on the nominal level, except through the reference's noise.
+        let first = here.first();
+        cells.push(first.map(|c| shown::share(c.constant)).unwrap_or_default());
+        cells.push(first.map(|c| shown::share(c.missed)).unwrap_or_default());
+        (class, spp, cells)
+    };
+    let rows = keys.into_iter().map(row).collect();
+    let marks = shown::marks(all.iter().filter_map(|c| c.mark.as_deref()));
+    Some(Covered { nominal, rows, marks })
+}
+
+fn cell(here: &[&CoverageSummary], nominal: f64) -> Cell {
+    let Some(c) = here.iter().find(|c| c.confidence == nominal) else { return Cell::default() };
+    let mut cell = shown::fraction(&c.covered);
+    if c.mark.is_some() {
+        cell.text += " *";
+    }
+    let raw = format::percent(c.covered_uncorrected.value);
+    cell.about(format!("Without the allowance for the reference's noise: {raw}"))
+}
+
+/// The table of all pixels, and behind a line those by class.
+pub(super) fn parts(covered: &Covered<'_>, name: &str) -> Vec<Part> {
+    let (all, classes): (Vec<_>, Vec<_>) = covered.rows.iter().partition(|(class, ..)| *class == "all");
+    let spp = || Column::number("spp").unit("spp");
+    let numbers = || {
+        let nominal = covered.nominal.iter().map(|n| format!("nominal {}", format::percent_short(*n)));
+        nominal.chain(["constant".into(), "missed".into()]).map(Column::number)
+    };
+    let rows = all.into_iter().map(|(_, spp, cells)| {
+        TableRow::new(std::iter::once(Cell::count((*spp).into())).chain(cells.clone()).collect())
+    });
+    let table = Table {
+        id: format!("coverage-{name}"),
+        columns: std::iter::once(spp()).chain(numbers()).collect(),
+        rows: rows.collect(),
+        notes: covered.marks.clone(),
+        ..Table::default()
+    };
+    let mut parts = vec![Part::Table(table)];
+    if !classes.is_empty() {
+        let rows = classes.into_iter().map(|(class, spp, cells)| {
+            TableRow::new(
+                [Cell::text(*class), Cell::count((*spp).into())].into_iter().chain(cells.clone()).collect(),
+            )
+        });
+        let table = Table {
+            id: format!("coverage-{name}-classes"),
+            columns: [Column::text("Class"), spp()].into_iter().chain(numbers()).collect(),
+            rows: rows.collect(),
+            ..Table::default()
+        };
+        parts.push(Part::folded("By pixel class", vec![Part::Table(table)]));
+    }
+    parts
+}

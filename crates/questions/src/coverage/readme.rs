@@ -1,0 +1,26 @@
+use noisefloor_study::exhibit::{Cell, Table};
+use noisefloor_study::format;
+use noisefloor_study::summary::SceneSummary;
+
+use super::exhibit::{Covered, covered};
+use crate::readme::{Block, Chosen, Kind, headed, plain, push};
+
+pub(super) const KINDS: &[Kind] = &[Kind { name: "coverage", keys: &["scenes", "spp"], make: coverage }];
+
+fn coverage(chosen: &Chosen<'_>) -> Vec<Block> {
+    chosen.per_scene(|scene| Some(table(chosen, scene, &covered(chosen.view, &scene.id)?)))
+}
+
+fn table(chosen: &Chosen<'_>, scene: &SceneSummary, covered: &Covered<'_>) -> Table {
+    let nominal = covered.nominal.iter().map(|n| format!("nominal {}", format::percent_short(*n)));
+    let first = std::iter::once("samples per pixel".to_owned());
+    let heads = first.chain(nominal).chain(["constant".into(), "missed events".into()]);
+    let mut out = headed(format!("coverage-{}", scene.id), heads);
+    for (_, spp, cells) in
+        covered.rows.iter().filter(|(class, spp, _)| *class == "all" && chosen.spp.contains(spp))
+    {
+        let cells = cells.iter().map(plain);
+        push(&mut out, std::iter::once(Cell::count((*spp).into())).chain(cells).collect());
+    }
+    out
+}

@@ -1,0 +1,28 @@
+use noisefloor_study::exhibit::Cell;
+
+use super::exhibit::{ours, theirs};
+use crate::readme::{Block, Chosen, Kind, headed_by, plain, push};
+
+pub(super) const KINDS: &[Kind] = &[Kind { name: "paper", keys: &[], make: paper }];
+
+fn paper(chosen: &Chosen<'_>) -> Vec<Block> {
+    let heads = ["what", "scene", "samples per pixel", "ours, 95 %", "source", "in words"];
+    let mut out = headed_by("paper", &heads);
+    for result in &chosen.view.summary.paper {
+        let words = match &result.reason {
+            None => result.verdict.name().to_owned(),
+            Some(reason) => format!("{}: {reason}", result.verdict),
+        };
+        let theirs = theirs(result);
+        let cells = vec![
+            Cell::text(&result.what),
+            Cell::text(chosen.view.scene_title(&result.scene)),
+            Cell::count(result.spp.into()),
+            plain(&ours(result)),
+            Cell { text: format!("{} ({})", theirs.text, result.source), ..theirs },
+            Cell::text(words),
+        ];
+        push(&mut out, cells);
+    }
+    vec![Block::Table(out)]
+}
