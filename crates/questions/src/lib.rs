@@ -12,6 +12,7 @@ mod document;
 mod equal_time;
 mod error;
 mod flicker;
+mod growth;
 mod measuring;
 mod own_error;
 mod paper;

@@ -60,6 +60,7 @@ pub const QUESTIONS: &[&dyn Question] = &[
     &crate::coverage::Coverage,
     &crate::bounds::Bounds,
     &crate::own_error::OwnError,
+    &crate::growth::Growth,
     &crate::equal_time::EqualTime,
     &crate::flicker::Flicker,
     &crate::breakage::Breakage,

@@ -1,0 +1,109 @@
+//! Growth of the squared error of every pixel from input to output.
+
+use noisefloor_frame::{Image, Reference, Variance};
+use noisefloor_study::BASELINE;
+use noisefloor_study::record::Record;
+use serde::{Deserialize, Serialize};
+
+use super::ID;
+use crate::cell::{Cell, MeasureError};
+
+/// Standard deviations of the reference's noise beyond which growth is sure.
+const SURE: f64 = 3.0;
+
+/// What is kept of a cell.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub(super) struct Answer {
+    /// Pixels that are finite in input, output and reference.
+    pub(super) pixels: u64,
+    /// Of those: pixels whose squared error grew.
+    pub(super) grew: u64,
+    /// Of those: by more than the reference's noise explains.
+    pub(super) surely: u64,
+    /// Sum of the growth where it is positive, over the squared error of the input.
+    pub(super) added: f64,
+    /// Sum of the shrinking where it is negative, over the same.
+    pub(super) removed: f64,
+}
+
+/// Of every row but the input itself.
+pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+    if cell.method == BASELINE {
+        return Ok(());
+    }
+    let found = growth(&cell.frame.color.mean, cell.image, cell.reference);
+    if let Some(answer) = found.and_then(|found| serde_json::to_value(found).ok()) {
+        record.answers.insert(ID.into(), answer);
+    }
+    Ok(())
+}
+
+/// Nothing where images differ in shape, no pixel can be compared, or the input has no error.
+fn growth(input: &Image, output: &Image, reference: &Reference) -> Option<Answer> {
+    let truth = reference.mean();
+    if !output.same_shape(truth) || !input.same_shape(truth) {
+        return None;
+    }
+    let variance = reference.frame.color.variance.as_ref().map(Variance::mean_variance);
+    let (mut out, mut before) = (Answer::default(), 0.0);
+    for pixel in 0..truth.pixels() {
+        let at = |image: &Image, c: usize| f64::from(image.plane(c)[pixel]);
+        let (mut grown, mut noise, mut squared) = (0.0, 0.0, 0.0);
+        for c in 0..truth.channels() {
+            let (x, d, r) = (at(input, c), at(output, c), at(truth, c));
+            // The product form: no difference of two nearly equal squares.
+            grown += (d - x) * ((d - r) + (x - r));
+            squared += (x - r) * (x - r);
+            noise += 4.0 * (d - x) * (d - x) * variance.map_or(0.0, |v| at(v, c).max(0.0));
+        }
+        if !(grown.is_finite() && squared.is_finite() && noise.is_finite()) {
+            continue;
+        }
+        out.pixels += 1;
+        before += squared;
+        if grown > 0.0 {
+            out.grew += 1;
+            out.surely += u64::from(grown > SURE * noise.sqrt());
+            out.added += grown;
+        } else {
+            out.removed -= grown;
+        }
+    }
+    // An input without any error has nothing to be divided by.
+    (before > 0.0 && before.is_finite()).then(|| Answer {
+        added: out.added / before,
+        removed: out.removed / before,
+        ..out
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn growth_is_where_the_output_is_farther_from_the_truth() {
+        let truth = Image::filled(4, 1, 3, 1.0);
+        let input = Image::from_fn(4, 1, 3, |_, x, _| if x < 2 { 1.5 } else { 1.0 });
+        // Mended, made worse, left alone, spoilt; squared errors 0.25 → 0, 0.25 → 1, 0 → 0, 0 → 4 per channel.
+        let output = Image::from_fn(4, 1, 3, |_, x, _| [1.0, 2.0, 1.0, 3.0][x]);
+        let found = growth(&input, &output, &Reference::exact(truth.clone())).unwrap();
+        assert_eq!((found.pixels, found.grew, found.surely), (4, 2, 2));
+        assert!((found.added - (0.75 + 4.0) / 0.5).abs() < 1e-12 && (found.removed - 0.5).abs() < 1e-12);
+        let mut holed = output;
+        holed.set(1, 3, 0, f32::NAN);
+        assert_eq!(growth(&input, &holed, &Reference::exact(truth.clone())).unwrap().pixels, 3);
+        assert_eq!(growth(&truth, &input, &Reference::exact(truth.clone())), None, "an input without error");
+    }
+
+    #[test]
+    fn growth_within_the_noise_of_the_reference_is_not_sure() {
+        let mut reference = Reference::exact(Image::filled(2, 1, 3, 1.0));
+        reference.frame.color.variance = Some(Variance::of_mean(Image::filled(2, 1, 3, 0.01)));
+        let input = Image::filled(2, 1, 3, 1.1);
+        // Growth 3·(1.12² … ): (0.02·0.22)·3 = 0.0132 of a standard deviation 2·0.02·0.1·√3 = 0.0069; and 3·0.9·1.1 of 0.31.
+        let output = Image::from_fn(2, 1, 3, |_, x, _| [1.12, 2.0][x]);
+        let found = growth(&input, &output, &reference).unwrap();
+        assert_eq!((found.grew, found.surely), (2, 1));
+    }
+}
