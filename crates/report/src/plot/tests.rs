@@ -1,0 +1,1 @@
+//! Charts as a whole: what a reader sees of an exhibit.
