@@ -141,7 +141,8 @@ pub(crate) fn remove_stale_tables(
     for first in known.iter().filter(|path| path.extension().is_some_and(|e| e == endings[0])) {
         // Not `with_extension`: names have dots of their own.
         let stem = first.to_string_lossy().trim_end_matches(endings[0]).to_owned();
-        let all: Vec<PathBuf> = endings.iter().map(|ending| PathBuf::from(format!("{stem}{ending}"))).collect();
+        let all: Vec<PathBuf> =
+            endings.iter().map(|ending| PathBuf::from(format!("{stem}{ending}"))).collect();
         if !files.contains(first) && all.iter().all(|path| known.contains(path)) {
             for path in all {
                 fs::remove_file(&path).map_err(ReportError::write(&path))?;

@@ -116,7 +116,8 @@ mod tests {
     #[test]
     fn every_id_becomes_a_name_of_its_own_inside_the_folder() {
         let mut taken = BTreeSet::new();
-        let names = ["cells-4", "cells-4", "../../etc/passwd", "", "ä b", ".."].map(|id| free_name(id, &mut taken));
+        let names =
+            ["cells-4", "cells-4", "../../etc/passwd", "", "ä b", ".."].map(|id| free_name(id, &mut taken));
         assert_eq!(names, ["cells-4", "cells-4-2", "-..-etc-passwd", "unnamed", "--b", "unnamed-2"]);
     }
 }

@@ -122,10 +122,8 @@ mod tests {
     #[test]
     fn numbers_keep_all_digits_and_have_their_ends_beside_them() {
         let columns = vec![Column::text("Row"), Column::number("Time").unit("s")];
-        let rows = vec![
-            vec![Cell::text("mc"), measured(1.0 / 3.0, 1e-7, 2.5)],
-            vec![Cell::text("b"), Cell::none()],
-        ];
+        let rows =
+            vec![vec![Cell::text("mc"), measured(1.0 / 3.0, 1e-7, 2.5)], vec![Cell::text("b"), Cell::none()]];
         let expected = "Row,Time [s],Time low [s],Time high [s]\r\n\
                         mc,0.3333333333333333,1e-7,2.5\r\n\
                         b,,,\r\n";

@@ -16,7 +16,8 @@ pub(super) fn latex(table: &Table, study: &str) -> String {
         out += &format!("% {}\n", comment(text));
     }
     out += "% Compiles on its own. In a paper, copy the tabular, or \\input this file after \\usepackage{standalone}.\n";
-    out += "\\documentclass[varwidth=30cm,border=2pt]{standalone}\n\\usepackage{booktabs}\n\\begin{document}\n";
+    out +=
+        "\\documentclass[varwidth=30cm,border=2pt]{standalone}\n\\usepackage{booktabs}\n\\begin{document}\n";
     let specification: String = (0..width).map(|at| alignment(table.columns.get(at), at, &cells)).collect();
     out += &format!("\\begin{{tabular}}{{{specification}}}\n\\toprule\n");
     let heads = (0..width).map(|at| table.columns.get(at).map_or_else(String::new, |c| escaped(&c.head)));
@@ -178,8 +179,13 @@ mod tests {
             notes: vec![],
         };
         let made = latex(&table, "s");
-        assert!(made.contains("\\begin{tabular}{lrp{7cm}}\n\\toprule\nRow & x & why \\& how \\\\\n\\midrule\n"));
-        assert!(made.contains("b & \\multicolumn{2}{l}{skipped: no\\_albedo} \\\\\n\\bottomrule\n"), "{made}");
+        assert!(
+            made.contains("\\begin{tabular}{lrp{7cm}}\n\\toprule\nRow & x & why \\& how \\\\\n\\midrule\n")
+        );
+        assert!(
+            made.contains("b & \\multicolumn{2}{l}{skipped: no\\_albedo} \\\\\n\\bottomrule\n"),
+            "{made}"
+        );
         assert!(made.contains("% two lines\n") && made.ends_with("\\end{document}\n"));
         let braces = |c: char| made.matches(c).count();
         assert_eq!(braces('{'), braces('}'));

@@ -226,7 +226,13 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn add_diagnostics(&mut self, position: usize, scene: &'a exhibit::GalleryScene, spp: u32, budget: usize) {
+    fn add_diagnostics(
+        &mut self,
+        position: usize,
+        scene: &'a exhibit::GalleryScene,
+        spp: u32,
+        budget: usize,
+    ) {
         let Some(level) = self.gallery.scenes[position].levels.iter().position(|l| l.spp == spp) else {
             return;
         };

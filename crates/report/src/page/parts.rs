@@ -24,16 +24,38 @@ pub(super) struct Section<'a> {
 #[derive(Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum Step<'a> {
-    Heading { text: &'a str },
-    Note { text: &'a str },
-    List { items: &'a [String] },
-    Table { table: TableView<'a> },
-    Charts { charts: Vec<ChartView> },
-    Facts { facts: &'a [(String, String)] },
+    Heading {
+        text: &'a str,
+    },
+    Note {
+        text: &'a str,
+    },
+    List {
+        items: &'a [String],
+    },
+    Table {
+        table: TableView<'a>,
+    },
+    Charts {
+        charts: Vec<ChartView>,
+    },
+    Facts {
+        facts: &'a [(String, String)],
+    },
     /// `group` names the switch: a page may have several, which move together.
-    LevelSwitch { group: usize, levels: Vec<(u32, bool)> },
-    Level { spp: u32, hidden: bool },
-    Folded { title: &'a str, row: Option<usize>, aside: &'a str },
+    LevelSwitch {
+        group: usize,
+        levels: Vec<(u32, bool)>,
+    },
+    Level {
+        spp: u32,
+        hidden: bool,
+    },
+    Folded {
+        title: &'a str,
+        row: Option<usize>,
+        aside: &'a str,
+    },
     EndLevel,
     EndFolded,
 }

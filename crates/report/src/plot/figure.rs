@@ -123,7 +123,9 @@ impl Figure {
         let moved = |p: &Point| (p.0 + by.0, p.1 + by.1);
         self.items.extend(other.items.iter().map(|item| match item {
             Item::Line(points, stroke) => Item::Line(points.iter().map(moved).collect(), *stroke),
-            Item::Area(points, color, alpha) => Item::Area(points.iter().map(moved).collect(), *color, *alpha),
+            Item::Area(points, color, alpha) => {
+                Item::Area(points.iter().map(moved).collect(), *color, *alpha)
+            }
             Item::Disc(center, radius, color) => Item::Disc(moved(center), *radius, *color),
             Item::Label(label) => Item::Label(Label { at: moved(&label.at), ..label.clone() }),
         }));

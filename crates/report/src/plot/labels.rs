@@ -48,9 +48,8 @@ fn free(name: &Named, room: Area, taken: &[Area], marks: &[Point]) -> Option<Are
     };
     let inside = |a: &Area| a[0] >= room[0] && a[1] >= room[1] && a[2] <= room[2] && a[3] <= room[3];
     let hidden = |a: &Area| {
-        let covers = |m: &&Point| {
-            m.0 > a[0] - 2.0 && m.0 < a[2] + 2.0 && m.1 > a[1] - 2.0 && m.1 < a[3] + 2.0
-        };
+        let covers =
+            |m: &&Point| m.0 > a[0] - 2.0 && m.0 < a[2] + 2.0 && m.1 > a[1] - 2.0 && m.1 < a[3] + 2.0;
         marks.iter().filter(covers).count()
     };
     let candidates = offsets.into_iter().map(area).filter(inside);

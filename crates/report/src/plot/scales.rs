@@ -94,7 +94,10 @@ mod tests {
 
     #[test]
     fn levels_are_named_once_and_in_order() {
-        assert_eq!(labels(&axis(exhibit::Scale::Levels, &[64.0, 4.0, 16.0, 4.0, f64::NAN])), ["4", "16", "64"]);
+        assert_eq!(
+            labels(&axis(exhibit::Scale::Levels, &[64.0, 4.0, 16.0, 4.0, f64::NAN])),
+            ["4", "16", "64"]
+        );
     }
 
     #[test]

@@ -256,7 +256,8 @@ mod tests {
     #[test]
     fn an_exhibit_may_ask_for_another_mark() {
         let looks = looks(&[RowKind::Plain]);
-        let asked = exhibit::Look { open: Some(true), shape: Some(Shape::Diamond), ..exhibit::Look::of_row(0) };
+        let asked =
+            exhibit::Look { open: Some(true), shape: Some(Shape::Diamond), ..exhibit::Look::of_row(0) };
         assert_eq!(looks.get(asked), Look { open: true, marker: Marker::Diamond, ..nth(0) });
         assert_eq!(looks.get(exhibit::Look::own(4)), nth(4));
     }
