@@ -116,15 +116,16 @@ impl Bars {
 
     fn value(&mut self, look: Look, point: &Datum, middle: f64) {
         let at = (self.across(point.y), middle);
-        let mut end = at.0;
+        let reach = if point.doubtful { 5.0 } else { 3.0 };
+        let mut ends = (at.0 - reach, at.0 + reach);
         if let (Some(low), Some(high), false) = (point.low, point.high, point.limit) {
             let (low, high) = (self.across(low), self.across(high));
             self.figure.rect((low, middle - 2.6), (high, middle + 2.6), look.color, 0.28);
             self.interval(look.color, (low, high), middle);
-            end = high;
+            ends = (low.min(ends.0), high.max(ends.1));
         }
         if point.limit {
-            self.arrow(look.color, at);
+            ends.0 = self.arrow(look.color, at);
         }
         if point.doubtful {
             ring(&mut self.figure, at);
@@ -132,7 +133,7 @@ impl Bars {
         mark(&mut self.figure, look, at);
         self.figure.spot(at, point.about.clone());
         if !point.label.is_empty() {
-            self.note(&point.label, at.0, end, middle);
+            self.note(&point.label, ends, middle);
         }
     }
 
@@ -144,21 +145,22 @@ impl Bars {
         }
     }
 
-    /// A short text behind the interval, or before the mark where there is no room behind it.
-    fn note(&mut self, said: &str, mark: f64, end: f64, middle: f64) {
+    /// A short text behind the interval, or before it where there is no room behind.
+    fn note(&mut self, said: &str, (start, end): (f64, f64), middle: f64) {
         let wide = width(said, NAME_SIZE, Weight::Normal);
-        let (at, anchor) = if end + 6.0 + wide <= self.right {
-            ((end + 6.0, middle), Anchor::Left)
+        let (at, anchor) = if end + 4.0 + wide <= self.right {
+            ((end + 4.0, middle), Anchor::Left)
         } else {
-            ((mark - 6.0, middle), Anchor::Right)
+            ((start - 4.0, middle), Anchor::Right)
         };
         self.figure.label(text(at, said.to_owned(), NAME_SIZE, anchor, MUTED));
     }
 
-    /// From an upper limit towards smaller values.
-    fn arrow(&mut self, color: Color, (x, y): Point) {
+    /// From an upper limit towards smaller values; gives where it ends.
+    fn arrow(&mut self, color: Color, (x, y): Point) -> f64 {
         let tip = (x - 13.0).max(self.left + 0.5);
         self.figure.line(vec![(x, y), (tip + 2.0, y)], Stroke::solid(color, 0.9));
         self.figure.area(vec![(tip, y), (tip + 4.2, y - 2.0), (tip + 4.2, y + 2.0)], color, 1.0);
+        tip
     }
 }

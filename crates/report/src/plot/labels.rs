@@ -33,7 +33,7 @@ pub(crate) fn place(frame: &mut Frame, named: &[Named], marks: &[Point]) {
 
 fn free(name: &Named, room: Area, taken: &[Area], marks: &[Point]) -> Option<Area> {
     let half = 0.5 * width(&name.text, NAME_SIZE, Weight::Normal) + 1.0;
-    // Above, to the right, to the left, below, and at the upper corners.
+    // Above, to the right, to the left, below, and at the corners.
     let offsets = [
         (0.0, -8.0),
         (half + 4.0, 0.0),
@@ -41,6 +41,8 @@ fn free(name: &Named, room: Area, taken: &[Area], marks: &[Point]) -> Option<Are
         (0.0, 8.0),
         (half + 2.0, -6.0),
         (-half - 2.0, -6.0),
+        (half + 2.0, 6.0),
+        (-half - 2.0, 6.0),
     ];
     let area = |(dx, dy): Point| {
         let (x, y) = (name.at.0 + dx, name.at.1 + dy);

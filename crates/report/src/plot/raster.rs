@@ -19,7 +19,26 @@ const CSS_DPI: f32 = 96.0;
 /// Turns the SVG file of the plot `name` into a PDF page of the same size, outlines and all.
 pub(crate) fn pdf(svg: &str, name: &str) -> Result<Vec<u8>, ReportError> {
     let page = PageOptions { dpi: CSS_DPI };
-    svg2pdf::to_pdf(&parse(svg, name)?, ConversionOptions::default(), page).map_err(|e| failed(name, &e))
+    let pdf = svg2pdf::to_pdf(&parse(svg, name)?, ConversionOptions::default(), page);
+    Ok(in_order(pdf.map_err(|e| failed(name, &e))?))
+}
+
+/// The same page with the entries of its graphics states in order: the converter keeps them in a hash map, so they
+/// stand in another order every time. Nothing changes its length, and no offset.
+fn in_order(mut pdf: Vec<u8>) -> Vec<u8> {
+    const OPEN: &[u8] = b"/ExtGState <<\n";
+    let find = |from: usize, what: &[u8]| pdf[from..].windows(what.len()).position(|w| w == what);
+    // Page dictionaries follow the compressed drawing.
+    let last = (0..pdf.len().saturating_sub(OPEN.len())).rev().find(|&at| pdf[at..].starts_with(OPEN));
+    let Some(start) = last.map(|at| at + OPEN.len()) else { return pdf };
+    let Some(length) = find(start, b">>") else { return pdf };
+    // The bracket stands on a line of its own.
+    let end = pdf[start..start + length].iter().rposition(|&b| b == b'\n').map_or(start, |at| start + at + 1);
+    let mut lines: Vec<Vec<u8>> =
+        pdf[start..end].split_inclusive(|&b| b == b'\n').map(<[u8]>::to_vec).collect();
+    lines.sort_by_key(|line| (line.len(), line.clone()));
+    pdf.splice(start..end, lines.concat());
+    pdf
 }
 
 /// Turns the SVG file of the plot `name` into a PNG of 300 dpi.
@@ -136,8 +155,19 @@ mod tests {
     }
 
     #[test]
+    fn graphics_states_stand_in_order() {
+        let page =
+            |order: &str| format!("%PDF\n/Resources <<\n  /ExtGState <<\n{order}  >>\n>>\n").into_bytes();
+        let shuffled = in_order(page("    /gs10 3 0 R\n    /gs1 7 0 R\n    /gs0 6 0 R\n"));
+        assert_eq!(shuffled, page("    /gs0 6 0 R\n    /gs1 7 0 R\n    /gs10 3 0 R\n"));
+        for other in ["", "/ExtGState <<\n", "/ExtGState <<\n>>\n", "/ExtGState <<"] {
+            assert_eq!(in_order(other.into()), other.as_bytes());
+        }
+    }
+
+    #[test]
     fn what_is_no_svg_is_an_error_with_the_name() {
         assert!(pdf("nonsense", "speed-x").unwrap_err().to_string().contains("speed-x"));
-        assert!(png("<svg/>", "speed-x").is_err());
+        assert!(png("<svg", "speed-x").is_err());
     }
 }
