@@ -17,14 +17,6 @@ pub enum ReportError {
     /// A file of the report could not be written.
     #[error(transparent)]
     Io(#[from] noisefloor_io::IoError),
-    /// The summary was written by a newer program.
-    #[error("summary format {found} is newer than {known}, the newest this program reads")]
-    Schema {
-        /// Version in the summary.
-        found: u32,
-        /// Newest version understood.
-        known: u32,
-    },
     /// A marker of a README cannot be obeyed.
     #[error("README.md, line {line}: {message}")]
     Readme {
@@ -59,6 +51,14 @@ pub enum ReportError {
         name: String,
         /// What the encoder said.
         source: png::EncodingError,
+    },
+    /// A table could not be written as JSON.
+    #[error("cannot write {name}.json: {source}")]
+    Table {
+        /// File name of the table, without extension.
+        name: String,
+        /// What the encoder said.
+        source: serde_json::Error,
     },
     /// The viewer's table of contents could not be written as JSON.
     #[error("cannot describe the viewer's images: {0}")]

@@ -7,14 +7,15 @@
 use std::path::Path;
 
 use noisefloor_frame::Image;
-use noisefloor_harness::summary::{SceneSummary, Summary};
 use noisefloor_metrics::tone_map;
+use noisefloor_study::exhibit::{Document, GalleryScene};
 
 use crate::readme::Directive;
 use crate::sheet;
+use crate::write::read_image;
 
 /// The panel as PNG; the error is a clause for people.
-pub(crate) fn panel(summary: &Summary, folder: &Path, asked: &Directive) -> Result<Vec<u8>, String> {
+pub(crate) fn panel(document: &Document, folder: &Path, asked: &Directive) -> Result<Vec<u8>, String> {
     let known = ["scenes", "spp", "show", "stops", "shrink"];
     if let Some(key) = asked.keys.keys().find(|key| !known.contains(&key.as_str())) {
         return Err(format!("a panel has no key `{key}`; it has {}", known.join(", ")));
@@ -24,11 +25,11 @@ pub(crate) fn panel(summary: &Summary, folder: &Path, asked: &Directive) -> Resu
         Some(text) => text.parse::<f64>().map_err(|_| format!("{key} is `{text}`, not a number")),
     };
     let (stops, shrink) = (number("stops", 0.0)? as f32, number("shrink", 1.0)?.clamp(1.0, 64.0) as usize);
-    let scenes: Vec<&SceneSummary> = match asked.list("scenes") {
-        ids if ids.is_empty() => summary.scenes.iter().collect(),
+    let scenes: Vec<&GalleryScene> = match asked.list("scenes") {
+        ids if ids.is_empty() => document.gallery.iter().collect(),
         ids => {
             let find = |id: &str| {
-                let found = summary.scenes.iter().find(|scene| scene.id == id);
+                let found = document.gallery.iter().find(|scene| scene.id == id);
                 found.ok_or_else(|| format!("the study has no scene `{id}`"))
             };
             ids.into_iter().map(find).collect::<Result<_, _>>()?
@@ -54,22 +55,20 @@ pub(crate) fn panel(summary: &Summary, folder: &Path, asked: &Directive) -> Resu
     sheet::panel(&rows).map_err(|e| e.to_string())
 }
 
-fn picture(scene: &SceneSummary, folder: &Path, spp: u32, name: &str, stops: f32) -> Result<Image, String> {
+fn picture(scene: &GalleryScene, folder: &Path, spp: u32, name: &str, stops: f32) -> Result<Image, String> {
     let absent = || format!("there is no image `{name}` of {} at {spp} spp", scene.id);
-    let read = |path: &str| {
-        let file = folder.join(path);
-        let image = noisefloor_io::read_color(&file).or_else(|_| noisefloor_io::read_image(&file));
-        image.map_err(|e| e.to_string())
-    };
+    let read = |path: &str| if path.is_empty() { Err(absent()) } else { read_image(&folder.join(path)) };
     if name == "reference" {
-        return Ok(tone_map(&read(&scene.reference_image)?, stops));
+        return Ok(tone_map(&read(&scene.reference)?, stops));
     }
-    if let Some(path) = scene.images.get(name).and_then(|by_spp| by_spp.get(&spp)) {
-        return Ok(tone_map(&read(path)?, stops));
+    let rows = scene.levels.iter().filter(|level| level.spp == spp).flat_map(|level| &level.rows);
+    if let Some(row) = rows.clone().find(|row| row.label == name) {
+        return Ok(tone_map(&read(&row.image)?, stops));
     }
     let (label, diagnostic) = name.split_once(" / ").ok_or_else(absent)?;
-    let of_level = scene.diagnostics.get(label).and_then(|by_spp| by_spp.get(&spp));
-    let image = read(of_level.and_then(|by_name| by_name.get(diagnostic)).ok_or_else(absent)?)?;
+    let mut of_row = rows.filter(|row| row.label == label).flat_map(|row| &row.diagnostics);
+    let (_, path) = of_row.find(|(name, _)| name == diagnostic).ok_or_else(absent)?;
+    let image = read(path)?;
     // Diagnostics have any unit: white is their largest value.
     let largest = image.data().iter().copied().filter(|v| v.is_finite()).fold(0.0, f32::max);
     Ok(if largest > 0.0 { image.map(|v| v / largest) } else { image })

@@ -1,37 +1,40 @@
-//! Tables of a study inside a README: what stands between two markers is made from the summary.
+//! Tables of a study inside a README: what stands between two markers is made from the study.
 //!
 //! `<!-- noisefloor:table KIND key=value … -->` begins a block and `<!-- /noisefloor -->` ends it. Kinds and keys are
-//! those of [`tables`]; a value with spaces stands in double quotes. Everything outside is the author's.
-
-mod tables;
+//! known to who makes tables; a value with spaces stands in double quotes. Everything outside is the author's.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_harness::summary::Summary;
+use noisefloor_study::exhibit::Document;
 
 use crate::error::ReportError;
-use crate::index::Index;
 
 const START: &str = "<!-- noisefloor:";
 const END: &str = "<!-- /noisefloor -->";
 
 /// A marker's words.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Directive {
+pub struct Directive {
     /// `table` or `panel`.
-    pub(crate) verb: String,
+    pub verb: String,
     /// What follows without a key.
-    pub(crate) kind: String,
-    pub(crate) keys: BTreeMap<String, String>,
+    pub kind: String,
+    /// Keys with their values.
+    pub keys: BTreeMap<String, String>,
 }
 
 impl Directive {
     /// The value of a key, split at `;` and trimmed; empty without the key.
-    pub(crate) fn list(&self, key: &str) -> Vec<&str> {
+    #[must_use]
+    pub fn list(&self, key: &str) -> Vec<&str> {
         self.keys.get(key).map_or_else(Vec::new, |text| text.split(';').map(str::trim).collect())
     }
 
-    fn parse(text: &str) -> Result<Self, String> {
+    /// Reads what stands in a marker behind `noisefloor:`.
+    ///
+    /// # Errors
+    /// A clause for people if a quote is not closed or a second word has no key.
+    pub fn parse(text: &str) -> Result<Self, String> {
         let mut words = words(text)?.into_iter();
         let verb = words.next().unwrap_or_default();
         let mut out = Self { verb, kind: String::new(), keys: BTreeMap::new() };
@@ -69,14 +72,11 @@ fn words(text: &str) -> Result<Vec<String>, String> {
     Ok(out)
 }
 
-/// The README with every block made anew. `other` makes blocks that are no tables, and gives nothing to leave one as it
-/// is.
+/// The README with every block made anew; `make` gives nothing to leave one as it is.
 pub(crate) fn spliced(
     readme: &str,
-    summary: &Summary,
-    mut other: impl FnMut(&Directive) -> Result<Option<String>, String>,
+    mut make: impl FnMut(&Directive) -> Result<Option<String>, String>,
 ) -> Result<String, ReportError> {
-    let index = Index::new(summary);
     let mut out = String::with_capacity(readme.len());
     let mut rest = readme;
     while let Some(at) = rest.find(START) {
@@ -89,10 +89,7 @@ pub(crate) fn spliced(
             return Err(wrong(format!("another marker comes before `{END}`")));
         }
         let directive = Directive::parse(text).map_err(wrong)?;
-        let made = match directive.verb.as_str() {
-            "table" => Some(tables::table(&index, &directive).map_err(wrong)?),
-            _ => other(&directive).map_err(wrong)?,
-        };
+        let made = make(&directive).map_err(wrong)?;
         out.push_str(head);
         out.push_str(&rest[at..at + START.len() + text.len() + "-->".len()]);
         match made {
@@ -114,14 +111,13 @@ pub(crate) fn embedded_plots(readme: &str) -> BTreeSet<String> {
 }
 
 /// A README to begin with.
-pub(crate) fn skeleton(summary: &Summary) -> String {
-    let study = &summary.study;
+pub(crate) fn skeleton(document: &Document) -> String {
     let block = |kind: &str| format!("{START}table {kind} -->\n{END}\n");
     format!(
         "# {}\n\n{}\n\n```sh\n{}\n```\n\n{}\n{}\n{}",
-        study.title,
-        study.question,
-        study.command,
+        document.title,
+        document.question,
+        document.command,
         block("answers"),
         block("methods"),
         block("machine")

@@ -1,17 +1,13 @@
-//! A recorded study's README: its tables, the plots that it shows, and a panel of pictures.
+//! A recorded study's README: its tables, the charts that it shows, and a panel of pictures.
 
 use std::path::{Path, PathBuf};
 
-use noisefloor_harness::summary::Summary;
+use noisefloor_study::exhibit::Document;
 
+use crate::charts::{Charts, Formats, remove_stale_plots};
 use crate::error::ReportError;
-use crate::index::Index;
-use crate::readme::{embedded_plots, skeleton, spliced};
-use crate::write::{Plots, write_file};
-
-fn summary_has_images(summary: &Summary) -> bool {
-    summary.scenes.iter().any(|scene| !scene.images.is_empty())
-}
+use crate::readme::{Directive, embedded_plots, skeleton, spliced};
+use crate::write::write_file;
 
 /// What was written beside the numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,44 +23,48 @@ pub struct Recording {
 /// Makes the tables of `to/README.md` anew and writes the plots that it shows, `plots/NAME.svg`; of plots with other
 /// names that an earlier call left there, those of studies are removed. Without a README one is begun.
 ///
-/// A table stands between `<!-- noisefloor:table KIND key=value … -->` and `<!-- /noisefloor -->`; the kinds are listed
-/// in the source of this crate and by `noisefloor record --help`. `<!-- noisefloor:panel … -->` makes `panel.png` from the
-/// images of `source`, the folder that `images` is the analysis of; where that has none, a panel stays as it is.
+/// A table stands between `<!-- noisefloor:table KIND key=value … -->` and `<!-- /noisefloor -->`: `tables` gives its
+/// Markdown, or a clause that says why there is none. `<!-- noisefloor:panel … -->` makes `panel.png` from the gallery of
+/// the document, whose paths are relative to `images`; without that folder, or where the gallery is empty, a panel
+/// stays as it is.
 ///
 /// # Errors
 /// [`ReportError::Readme`] for a marker that cannot be obeyed, [`ReportError::Read`], [`ReportError::Write`] and
 /// [`ReportError::Io`] for files, and the errors of drawing.
 pub fn write_recording(
     to: &Path,
-    summary: &Summary,
-    (source, images): (&Path, &Summary),
+    document: &Document,
+    images: Option<&Path>,
+    tables: &dyn Fn(&Directive) -> Result<String, String>,
 ) -> Result<Recording, ReportError> {
     let readme = to.join("README.md");
     let text = match std::fs::read_to_string(&readme) {
         Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => skeleton(summary),
+        Err(error) if error.kind() == std::io::ErrorKind::NotFound => skeleton(document),
         Err(source) => return Err(ReportError::Read { path: readme, source }),
     };
+    let images = images.filter(|_| !document.gallery.is_empty());
     let mut panel = None;
-    let made = spliced(&text, summary, |directive| {
-        if directive.verb != "panel" {
-            return Err(format!("there is no `noisefloor:{}`", directive.verb));
-        }
-        if summary_has_images(images) {
-            panel = Some(crate::panel::panel(images, source, directive)?);
-            return Ok(Some("![Pictures of the first replicate](panel.png)".into()));
+    let made = spliced(&text, |directive| match (directive.verb.as_str(), images) {
+        ("table", _) => tables(directive).map(Some),
+        ("panel", Some(folder)) => {
+            panel = Some(crate::panel::panel(document, folder, directive)?);
+            Ok(Some("![Pictures of the first replicate](panel.png)".into()))
         }
         // A recording of a recording: the panel stays as it is.
-        Ok(None)
+        ("panel", None) => Ok(None),
+        (other, _) => Err(format!("there is no `noisefloor:{other}`")),
     })?;
     if let Some(png) = panel {
         write_file(&to.join("panel.png"), &png)?;
     }
     let wanted = embedded_plots(&made);
-    let plots = match wanted.is_empty() && !to.join("plots").exists() {
-        true => Vec::new(),
-        false => Plots::write_some(&Index::new(summary), &to.join("plots"), &wanted)?,
-    };
+    let folder = to.join("plots");
+    let mut plots = Vec::new();
+    if !wanted.is_empty() || folder.exists() {
+        plots = Charts::draw(document, Some(&wanted))?.write(&folder, Formats::SVG)?;
+        remove_stale_plots(&folder, &plots)?;
+    }
     let name = |path: &PathBuf| path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let drawn: Vec<String> = plots.iter().filter_map(name).collect();
     let absent = wanted.into_iter().filter(|name| !drawn.contains(name)).collect();

@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use noisefloor_frame::Image;
-use noisefloor_harness::summary::SceneSummary;
+use noisefloor_study::exhibit::{self, Document};
+use noisefloor_study::format::plural;
 use serde::Serialize;
 
 use super::encode::{Encoded, encode};
-use crate::index::Index;
 
 /// Reads an image of the study; the error is a sentence for the page.
 pub(crate) type Loader<'a> = dyn Fn(&Path) -> Result<Image, String> + 'a;
@@ -67,16 +67,22 @@ impl Gallery {
 /// First the references and the level that the page opens with, for every scene, cropped around the centre if
 /// even these are too large; then that level's diagnostics (other levels' stay outside); then further levels, each
 /// as a whole or not at all.
-pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Gallery {
-    let study = &index.summary.study;
-    let wanted: Vec<u32> =
-        if study.viewer_spp.is_empty() { study.spp.clone() } else { study.viewer_spp.clone() };
-    let first =
-        index.default_spp().filter(|n| wanted.contains(n)).or_else(|| wanted.get(wanted.len() / 2).copied());
-    let mut builder =
-        Builder { index, load, gallery: Gallery::default(), stored: BTreeMap::new(), left_out: 0 };
-    let share = budget / index.summary.scenes.len().max(1);
-    for scene in &index.summary.scenes {
+pub(crate) fn gallery(document: &Document, load: &Loader<'_>, budget: usize) -> Gallery {
+    let levels = document.gallery.iter().flat_map(|scene| &scene.levels).map(|level| level.spp);
+    let mut wanted: Vec<u32> = levels.collect();
+    wanted.sort_unstable();
+    wanted.dedup();
+    let chosen = document.chosen.filter(|n| wanted.contains(n));
+    let first = chosen.or_else(|| wanted.get(wanted.len() / 2).copied());
+    let mut builder = Builder {
+        scenes: &document.gallery,
+        load,
+        gallery: Gallery::default(),
+        stored: BTreeMap::new(),
+        left_out: 0,
+    };
+    let share = budget / document.gallery.len().max(1);
+    for scene in &document.gallery {
         builder.open(scene, first, share);
     }
     if let Some(spp) = first {
@@ -88,7 +94,7 @@ pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Ga
     let left_out = builder.left_out;
     let mut gallery = builder.gallery;
     if left_out > 0 {
-        gallery.omitted.push(crate::format::plural(left_out, "diagnostic image"));
+        gallery.omitted.push(plural(left_out, "diagnostic image"));
     }
     gallery.diagnostics_spp = first;
     gallery.scenes.iter_mut().for_each(|s| s.levels.sort_by_key(|l| l.spp));
@@ -96,7 +102,7 @@ pub(crate) fn gallery(index: &Index<'_>, load: &Loader<'_>, budget: usize) -> Ga
 }
 
 struct Builder<'a> {
-    index: &'a Index<'a>,
+    scenes: &'a [exhibit::GalleryScene],
     load: &'a Loader<'a>,
     gallery: Gallery,
     /// Images in the gallery by scene and path, so that shared files are carried once.
@@ -106,14 +112,14 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn each(&mut self, mut f: impl FnMut(&mut Self, usize, &'a SceneSummary)) {
-        for (i, scene) in self.index.summary.scenes.iter().enumerate() {
+    fn each(&mut self, mut f: impl FnMut(&mut Self, usize, &'a exhibit::GalleryScene)) {
+        for (i, scene) in self.scenes.iter().enumerate() {
             f(self, i, scene);
         }
     }
 
     /// Starts a scene with its reference and its first level, within `share` bytes.
-    fn open(&mut self, scene: &'a SceneSummary, spp: Option<u32>, share: usize) {
+    fn open(&mut self, scene: &'a exhibit::GalleryScene, spp: Option<u32>, share: usize) {
         let position = self.gallery.scenes.len();
         self.gallery.scenes.push(GalleryScene {
             id: scene.id.clone(),
@@ -121,9 +127,9 @@ impl<'a> Builder<'a> {
             ..GalleryScene::default()
         });
         // A reference that is not what was written has no path.
-        let reference = Some(scene.reference_image.as_str()).filter(|path| !path.is_empty());
+        let reference = Some(scene.reference.as_str()).filter(|path| !path.is_empty());
         let mut paths: Vec<&str> = reference.into_iter().collect();
-        paths.extend(spp.iter().flat_map(|&n| level_paths(scene, n)).map(|(_, path)| path));
+        paths.extend(spp.iter().flat_map(|&n| level_paths(scene, n)));
         let Some((first, _)) = self.read(&paths, None).into_iter().next() else { return };
         let full = [0, 0, first.width, first.height];
         let mut crop = full;
@@ -144,7 +150,7 @@ impl<'a> Builder<'a> {
             let (w, h) = (side(crop[2]), side(crop[3]));
             crop = [(full[2] - w) / 2, (full[3] - h) / 2, w, h];
         }
-        let reference = self.stored.get(&(position, scene.reference_image.clone())).copied();
+        let reference = self.stored.get(&(position, scene.reference.clone())).copied();
         self.gallery.scenes[position].reference = reference;
         if let Some(spp) = spp {
             self.enter_level(position, scene, spp);
@@ -208,8 +214,8 @@ impl<'a> Builder<'a> {
         fits
     }
 
-    fn add_level(&mut self, position: usize, scene: &'a SceneSummary, spp: u32, budget: usize) {
-        let paths: Vec<&str> = level_paths(scene, spp).map(|(_, path)| path).collect();
+    fn add_level(&mut self, position: usize, scene: &'a exhibit::GalleryScene, spp: u32, budget: usize) {
+        let paths: Vec<&str> = level_paths(scene, spp).collect();
         if paths.is_empty() {
             return;
         }
@@ -220,34 +226,39 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn add_diagnostics(&mut self, position: usize, scene: &'a SceneSummary, spp: u32, budget: usize) {
+    fn add_diagnostics(
+        &mut self,
+        position: usize,
+        scene: &'a exhibit::GalleryScene,
+        spp: u32,
+        budget: usize,
+    ) {
         let Some(level) = self.gallery.scenes[position].levels.iter().position(|l| l.spp == spp) else {
             return;
         };
-        for (label, by_spp) in &scene.diagnostics {
-            for (name, path) in by_spp.get(&spp).into_iter().flatten() {
+        for row in rows(scene, spp) {
+            for (name, path) in &row.diagnostics {
                 if !self.fit(position, &[path], budget) {
                     self.left_out += 1;
                     continue;
                 }
                 if let Some(&image) = self.stored.get(&(position, path.clone())) {
                     let level = &mut self.gallery.scenes[position].levels[level];
-                    level.diagnostics.entry(label.clone()).or_default().insert(name.clone(), image);
+                    let of_row = level.diagnostics.entry(row.label.clone()).or_default();
+                    of_row.insert(name.clone(), image);
                 }
             }
         }
     }
 
-    fn enter_level(&mut self, position: usize, scene: &'a SceneSummary, spp: u32) {
+    fn enter_level(&mut self, position: usize, scene: &'a exhibit::GalleryScene, spp: u32) {
         let mut level = GalleryLevel { spp, ..GalleryLevel::default() };
-        let metric = &self.index.summary.study.primary_metric;
-        for (label, path) in level_paths(scene, spp) {
-            if let Some(&image) = self.stored.get(&(position, path.to_owned())) {
-                level.images.insert(label.to_owned(), image);
+        for row in rows(scene, spp) {
+            if let Some(&image) = self.stored.get(&(position, row.image.clone())) {
+                level.images.insert(row.label.clone(), image);
             }
-            let interval = self.index.cell(&scene.id, spp, label).and_then(|c| c.metrics.get(metric));
-            if let Some(interval) = interval {
-                level.values.insert(label.to_owned(), crate::format::interval(interval).value);
+            if !row.value.is_empty() {
+                level.values.insert(row.label.clone(), row.value.clone());
             }
         }
         if !level.images.is_empty() {
@@ -256,7 +267,12 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Row labels and files of a level.
-fn level_paths(scene: &SceneSummary, spp: u32) -> impl Iterator<Item = (&str, &str)> {
-    scene.images.iter().filter_map(move |(label, by_spp)| Some((label.as_str(), by_spp.get(&spp)?.as_str())))
+/// The rows with images of a scene at a level.
+fn rows(scene: &exhibit::GalleryScene, spp: u32) -> impl Iterator<Item = &exhibit::GalleryRow> {
+    scene.levels.iter().filter(move |level| level.spp == spp).flat_map(|level| &level.rows)
+}
+
+/// Files of a level.
+fn level_paths(scene: &exhibit::GalleryScene, spp: u32) -> impl Iterator<Item = &str> {
+    rows(scene, spp).map(|row| row.image.as_str()).filter(|path| !path.is_empty())
 }

@@ -2,6 +2,8 @@
 const REFERENCE = "#reference";
 // Error maps start with the full colour at a quarter.
 const SENSITIVITY = 2;
+// Largest zoom, in device pixels per image pixel.
+const MOST = 64;
 
 function startViewer() {
   const $ = (id) => document.getElementById(id);
@@ -16,8 +18,23 @@ function startViewer() {
   const rows = () => gallery.labels.filter((l) => l in (level()?.images ?? {}));
   const isMap = () => state.view === "magnitude" || state.view === "signed";
 
+  // Entries are [value, text], or [group's name, entries].
   function options(select, entries, value) {
-    select.replaceChildren(...entries.map(([v, text]) => new Option(text, v, false, v === value)));
+    const option = ([v, text]) => new Option(text, v, false, v === value);
+    select.replaceChildren(...entries.map((entry) => {
+      if (!Array.isArray(entry[1])) return option(entry);
+      const group = document.createElement("optgroup");
+      group.label = entry[0];
+      group.append(...entry[1].map(option));
+      return group;
+    }));
+  }
+
+  // The chosen diagnostic as {label, name}, or null. Its view is `diagnostic ` and both as JSON.
+  function diagnostic() {
+    if (!state.view.startsWith("diagnostic ")) return null;
+    const [label, name] = JSON.parse(state.view.slice(11));
+    return { label, name };
   }
 
   function fillChoices() {
@@ -32,17 +49,22 @@ function startViewer() {
     options($("v-b"), sides, state.b);
     const views = [["image", "Image"]];
     if (scene().reference !== null) views.push(["magnitude", "Relative error"], ["signed", "Signed difference"]);
-    const names = new Set(Object.values(level()?.diagnostics ?? {}).flatMap((d) => Object.keys(d)));
-    for (const name of [...names].sort()) views.push([`diagnostic ${name}`, `Diagnostic: ${name}`]);
-    if (!views.some(([v]) => v === state.view)) state.view = "image";
+    const of = level()?.diagnostics ?? {};
+    for (const label of gallery.labels.filter((l) => l in of)) {
+      const names = Object.keys(of[label]).sort();
+      views.push([label, names.map((name) => [`diagnostic ${JSON.stringify([label, name])}`, name])]);
+    }
+    const all = views.flatMap(([v, entries]) => (Array.isArray(entries) ? entries.map(([d]) => d) : [v]));
+    if (!all.includes(state.view)) state.view = "image";
     options($("v-view"), views, state.view);
   }
 
   // Index of the image of a side, and how to paint it.
   function source(label) {
     if (label === REFERENCE) return { index: scene().reference, view: isMap() ? state.view : "image" };
-    if (state.view.startsWith("diagnostic ")) {
-      const index = level().diagnostics[label]?.[state.view.slice(11)];
+    const chosen = diagnostic();
+    if (chosen) {
+      const index = level().diagnostics[label]?.[chosen.name];
       if (index !== undefined) return { index, view: gallery.images[index].channels === 1 ? "range" : "image", diagnostic: true };
       return { index: level().images[label], view: "image" };
     }
@@ -54,6 +76,12 @@ function startViewer() {
     fillChoices();
     showControls();
     try {
+      const chosen = diagnostic();
+      if (chosen && ![state.a, state.b].some((l) => level().diagnostics[l]?.[chosen.name] !== undefined)) {
+        const [a, b] = [state.a, state.b].map((l) => (l === REFERENCE ? "the reference" : l));
+        const sides = a === b ? `${a} does not have this image` : `Neither ${a} nor ${b} has this image`;
+        throw new Error(`${sides}: ${chosen.name} is one of ${chosen.label}.`);
+      }
       const reference = scene().reference === null ? null : await imageAt(scene().reference);
       const sides = [];
       for (const label of [state.a, state.b]) {
@@ -70,6 +98,11 @@ function startViewer() {
       showBar();
       draw();
     } catch (error) {
+      if (mine !== turn) return;
+      shown = null;
+      canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
+      if (canvas.height < 100) canvas.height = 100;
+      $("v-bar").hidden = true;
       $("v-problem").hidden = false;
       $("v-problem").textContent = error.message;
     }
@@ -81,11 +114,11 @@ function startViewer() {
     $("v-gain-name").textContent = isMap() ? "Sensitivity" : "Exposure";
     $("v-gain-text").textContent = isMap() ? `${(2 ** gain).toPrecision(3)}×` : `${gain < 0 ? "−" : "+"}${Math.abs(gain).toFixed(2)} EV`;
     $("v-wipe").value = 100 * state.wipe;
-    const diagnostic = state.view.startsWith("diagnostic ") ? state.view.slice(11) : null;
-    const single = diagnostic && [state.a, state.b].some((l) => gallery.images[level()?.diagnostics[l]?.[diagnostic]]?.channels === 1);
+    const chosen = diagnostic()?.name;
+    const single = chosen && [state.a, state.b].some((l) => gallery.images[level()?.diagnostics[l]?.[chosen]]?.channels === 1);
     $("v-gain").disabled = Boolean(single);
     const name = (label) => {
-      if (diagnostic && level()?.diagnostics[label]?.[diagnostic] !== undefined) return `${label} · ${diagnostic}`;
+      if (chosen && level()?.diagnostics[label]?.[chosen] !== undefined) return `${label} · ${chosen}`;
       const value = level()?.values[label];
       return label === REFERENCE ? "reference" : value ? `${label} · ${gallery.metric} ${value}` : label;
     };
@@ -182,9 +215,28 @@ function startViewer() {
     $("v-readout").textContent = `Column ${x + crop[0]}, row ${y + crop[1]} · A ${a} · B ${b}` + (reference ? ` · reference ${reference}` : "");
   }
 
+  const limited = (zoom) => Math.max(1, Math.min(MOST, zoom));
+
   function zoomTo(zoom) {
-    state.zoom = Math.max(1, Math.min(64, zoom));
+    state.zoom = limited(zoom);
     draw();
+  }
+
+  // Zooms so that the image pixel under the pointer stays there.
+  function zoomAt(zoom, event) {
+    const g = shown?.place;
+    if (!g) return;
+    const box = canvas.getBoundingClientRect();
+    const next = limited(zoom);
+    const center = (pointer, start, room, size) => {
+      const at = (pointer - start) / (size * g.zoom);
+      return Math.min(1, Math.max(0, at + (room / 2 - pointer) / (size * next)));
+    };
+    state.x = center((event.clientX - box.left) * g.ratio, g.left, g.room, g.width);
+    state.y = center((event.clientY - box.top) * g.ratio, g.top, g.tall, g.height);
+    zoomTo(next);
+    // Near the border the image stops moving; panning goes on from what is seen.
+    pan(0, 0);
   }
 
   function pan(dx, dy) {
@@ -277,10 +329,19 @@ function startViewer() {
     } else wipeTo(e.clientX);
   });
   for (const end of ["pointerup", "pointercancel"]) stage.addEventListener(end, () => { drag = null; });
+  // The wheel zooms; where it cannot, it scrolls the page. Touchpads send many small steps.
+  let turned = 0;
   stage.addEventListener("wheel", (e) => {
-    if (!e.ctrlKey && !e.metaKey) return;
+    const g = shown?.place;
+    if (!g || e.deltaY === 0) return;
+    const closer = e.deltaY < 0;
+    if (closer ? g.zoom >= MOST : g.zoom <= g.fit) { turned = 0; return; }
     e.preventDefault();
-    zoomTo((shown?.place?.zoom ?? 1) + (e.deltaY < 0 ? 1 : -1));
+    turned += e.deltaMode === 0 ? e.deltaY : 40 * e.deltaY;
+    if (Math.abs(turned) < 40) return;
+    turned = 0;
+    const step = Math.max(1, Math.round(0.2 * g.zoom));
+    zoomAt(closer ? g.zoom + step : Math.max(g.fit, g.zoom - step), e);
   }, { passive: false });
   stage.addEventListener("keydown", (e) => {
     const zoomed = stage.classList.contains("zoomed");

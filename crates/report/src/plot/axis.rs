@@ -1,6 +1,6 @@
 //! Axes: scales, their ranges and their ticks.
 
-use crate::format::{significant, superscript};
+use noisefloor_study::format::{significant, superscript};
 
 /// How values map to [0, 1] along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,20 +34,28 @@ pub(crate) struct Axis {
 impl Axis {
     /// Position of a value, 0 at the low end and 1 at the high end, clamped to the axis.
     pub(crate) fn position(&self, value: f64) -> f64 {
-        let log = |v: f64| {
-            // Ranges are positive and not empty by construction, see `log_range`.
-            ((v.max(1e-300) / self.low).ln() / (self.high / self.low).ln()).clamp(0.0, 1.0)
-        };
+        self.place(value).clamp(0.0, 1.0)
+    }
+
+    /// Position of a value, below 0 or above 1 where the axis does not reach it.
+    pub(crate) fn place(&self, value: f64) -> f64 {
+        // Ranges are positive and not empty by construction, see `log_range`.
+        let log = |v: f64| (v.max(1e-300) / self.low).ln() / (self.high / self.low).ln();
         match self.scale {
             Scale::Log => log(value),
             Scale::LogWithZero(strip) if value <= 0.0 => strip * 0.5,
-            Scale::LogWithZero(strip) => strip + (1.0 - strip) * log(value),
+            // Nothing falls into the strip that stands for zero.
+            Scale::LogWithZero(strip) => strip + (1.0 - strip) * log(value).max(0.0),
             Scale::Miss => {
                 let (from, to) = (1.0 - self.low, 1.0 - self.high);
-                let miss = (1.0 - value).clamp(to, from);
-                (from / miss).ln() / (from / to).ln()
+                (from / (1.0 - value).max(1e-12)).ln() / (from / to).ln()
             }
         }
+    }
+
+    /// Whether a value has a place on the axis at all.
+    pub(crate) fn holds(&self, value: f64) -> bool {
+        value.is_finite() && (value > 0.0 || !matches!(self.scale, Scale::Log))
     }
 
     /// An axis over positive values with a margin on both sides.
@@ -57,7 +65,7 @@ impl Axis {
     }
 
     /// Samples per pixel: ticks at the levels themselves.
-    pub(crate) fn spp(levels: &[u32]) -> Self {
+    pub(crate) fn spp(title: &str, levels: &[u32]) -> Self {
         let (low, high) = log_range(levels.iter().map(|&n| f64::from(n)), 0.07);
         // Labels need about a tenth of the axis.
         let mut ticks: Vec<Tick> = Vec::new();
@@ -71,7 +79,7 @@ impl Axis {
             }
             ticks.push(Tick { value: f64::from(n), label });
         }
-        Self { scale: Scale::Log, low, high, ticks, title: "samples per pixel".into() }
+        Self { scale: Scale::Log, low, high, ticks, title: title.into() }
     }
 
     /// Seconds, ticks in µs, ms, s.
@@ -170,9 +178,9 @@ mod tests {
 
     #[test]
     fn spp_ticks_are_the_levels_and_thin_out_when_crowded() {
-        assert_eq!(labels(&Axis::spp(&[4, 16, 64, 256]).ticks), ["4", "16", "64", "256"]);
+        assert_eq!(labels(&Axis::spp("spp", &[4, 16, 64, 256]).ticks), ["4", "16", "64", "256"]);
         let crowded: Vec<u32> = (0..20).map(|k| 4 + k).collect();
-        let axis = Axis::spp(&crowded);
+        let axis = Axis::spp("spp", &crowded);
         assert_eq!(axis.ticks.len(), 20);
         assert!(labels(&axis.ticks).len() < 12);
     }

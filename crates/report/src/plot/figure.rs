@@ -19,7 +19,7 @@ pub(crate) type Point = (f64, f64);
 pub(crate) type Dash = &'static [f64];
 
 /// How a line looks.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stroke {
     pub color: Color,
     /// Points.
@@ -116,6 +116,20 @@ impl Figure {
         if !label.text.is_empty() {
             self.items.push(Item::Label(label));
         }
+    }
+
+    /// Draws another figure into this one, its top left corner at `by`.
+    pub(crate) fn place(&mut self, other: &Self, by: Point) {
+        let moved = |p: &Point| (p.0 + by.0, p.1 + by.1);
+        self.items.extend(other.items.iter().map(|item| match item {
+            Item::Line(points, stroke) => Item::Line(points.iter().map(moved).collect(), *stroke),
+            Item::Area(points, color, alpha) => {
+                Item::Area(points.iter().map(moved).collect(), *color, *alpha)
+            }
+            Item::Disc(center, radius, color) => Item::Disc(moved(center), *radius, *color),
+            Item::Label(label) => Item::Label(Label { at: moved(&label.at), ..label.clone() }),
+        }));
+        self.spots.extend(other.spots.iter().map(|s| Spot { at: moved(&s.at), text: s.text.clone() }));
     }
 
     pub(crate) fn spot(&mut self, at: Point, text: String) {

@@ -1,14 +1,10 @@
 //! Colours, markers and dashes: each row of a study keeps its look in every plot.
 
-use std::collections::BTreeMap;
-
-use noisefloor_harness::RowFrames;
-use noisefloor_harness::summary::MethodSummary;
+use noisefloor_study::exhibit::{self, RowKind, RowLook, Shape};
 
 use super::figure::{Color, Dash, Figure, Point, Stroke};
 use super::svg::{Drawing, hex};
 use crate::error::ReportError;
-use crate::index::Index;
 
 /// Paper.
 pub(crate) const BACKGROUND: Color = Color(0xff, 0xff, 0xff);
@@ -67,47 +63,81 @@ impl Look {
     }
 }
 
-/// The look of every row: plain Monte Carlo in ink with discs, the others in their order, a guarded row in the
-/// colour of the row that it guards, dashed and with open marks, and a row on frames of its own in the colour of the
-/// same method on the study's frames, dotted and with open marks.
+/// The look of every row of a study, by its place: plain Monte Carlo in ink with discs, the others in their order, a
+/// guarded row in the colour of the row that it guards, dashed and with open marks, and a row on frames of its own in
+/// the colour of the same method on the study's frames, dotted and with open marks.
 #[derive(Debug, Clone)]
 pub(crate) struct Looks {
-    by_label: BTreeMap<String, Look>,
+    rows: Vec<Look>,
 }
 
+/// Of what is no row of the study.
+const UNKNOWN: Look = Look { color: INK, marker: Marker::Circle, open: true, dash: &[] };
+
 impl Looks {
-    pub(crate) fn of(methods: &[MethodSummary]) -> Self {
-        let mut by_label = BTreeMap::new();
-        let mut next = 0;
-        for method in methods.iter().filter(|m| inner(m, methods).is_none()) {
-            let look = if method.method == "mc" && method.frames == RowFrames::Uniform {
-                Look { color: INK, marker: Marker::Circle, open: false, dash: &[] }
-            } else {
-                next += 1;
-                nth(next - 1)
-            };
-            by_label.insert(method.label.clone(), look);
-        }
-        for method in methods {
-            if let Some(look) = inner(method, methods).and_then(|i| by_label.get(i).copied()) {
-                let dash = if method.frames == RowFrames::Uniform { GUARDED } else { OTHER_FRAMES };
-                let mut guarded = Look { open: true, dash, ..look };
-                // Two such rows of one method differ in their parameters only: tell them apart by marker.
-                for marker in MARKERS {
-                    if by_label.values().any(|taken| *taken == guarded) {
-                        guarded.marker = marker;
-                    }
-                }
-                by_label.insert(method.label.clone(), guarded);
+    pub(crate) fn of(rows: &[RowLook]) -> Self {
+        let own = |kind: RowKind| matches!(kind, RowKind::Baseline | RowKind::Plain);
+        // What a row is a variant of, if that has a look of its own.
+        let variant = |kind: RowKind| match kind {
+            RowKind::Guarded(of) | RowKind::OtherFrames(of) => {
+                rows.get(of).is_some_and(|row| own(row.kind)).then_some(of)
             }
+            RowKind::Baseline | RowKind::Plain => None,
+        };
+        let mut looks: Vec<Option<Look>> = vec![None; rows.len()];
+        let mut next = 0;
+        for (look, row) in looks.iter_mut().zip(rows).filter(|(_, row)| variant(row.kind).is_none()) {
+            *look = Some(match row.kind {
+                RowKind::Baseline => Look { color: INK, marker: Marker::Circle, open: false, dash: &[] },
+                _ => {
+                    next += 1;
+                    nth(next - 1)
+                }
+            });
         }
-        Self { by_label }
+        for (at, row) in rows.iter().enumerate() {
+            let Some(inner) = variant(row.kind).and_then(|of| looks[of]) else { continue };
+            let dash = if matches!(row.kind, RowKind::Guarded(_)) { GUARDED } else { OTHER_FRAMES };
+            let mut look = Look { open: true, dash, ..inner };
+            // Two such rows of one method differ in their parameters only: tell them apart by marker.
+            for marker in MARKERS {
+                if looks.iter().flatten().any(|taken| *taken == look) {
+                    look.marker = marker;
+                }
+            }
+            looks[at] = Some(look);
+        }
+        Self { rows: looks.into_iter().map(|look| look.unwrap_or(UNKNOWN)).collect() }
     }
 
-    /// The row's look; unknown rows look like plain Monte Carlo.
-    pub(crate) fn get(&self, label: &str) -> Look {
-        let plain = Look { color: INK, marker: Marker::Circle, open: true, dash: &[] };
-        self.by_label.get(label).copied().unwrap_or(plain)
+    /// The look of the row at a place.
+    pub(crate) fn row(&self, at: usize) -> Look {
+        self.rows.get(at).copied().unwrap_or(UNKNOWN)
+    }
+
+    /// The look that an exhibit asks for.
+    pub(crate) fn get(&self, asked: exhibit::Look) -> Look {
+        let look = asked.row.map_or_else(|| nth(asked.own), |row| self.row(row));
+        let marker = match asked.shape {
+            None => look.marker,
+            Some(Shape::Circle) => Marker::Circle,
+            Some(Shape::Square) => Marker::Square,
+            Some(Shape::Triangle) => Marker::Triangle,
+            Some(Shape::Diamond) => Marker::Diamond,
+        };
+        Look { marker, open: asked.open.unwrap_or(look.open), ..look }
+    }
+
+    /// SVG symbols `swatch-0`, `swatch-1`, … with the look of each row.
+    pub(crate) fn swatches(&self) -> Result<String, ReportError> {
+        let mut out = String::new();
+        for (i, look) in self.rows.iter().enumerate() {
+            let mut figure = Figure::new(20.0, 8.0, String::new());
+            figure.line(vec![(0.0, 4.0), (20.0, 4.0)], Stroke { width: 1.4, ..look.stroke() });
+            mark(&mut figure, *look, (10.0, 4.0));
+            out += &Drawing::of(&figure, "swatch")?.symbol(&format!("swatch-{i}"));
+        }
+        Ok(out)
     }
 }
 
@@ -133,36 +163,6 @@ pub(crate) fn css() -> String {
         format!("[fill=\"{hex}\"]{{fill:var(--{name})}}[stroke=\"{hex}\"]{{stroke:var(--{name})}}\n")
     })
     .collect()
-}
-
-/// SVG symbols `swatch-0`, `swatch-1`, … with the look of each row.
-pub(crate) fn swatches(index: &Index<'_>) -> Result<String, ReportError> {
-    let mut out = String::new();
-    for (i, method) in index.summary.methods.iter().enumerate() {
-        let look = index.looks.get(&method.label);
-        let mut figure = Figure::new(20.0, 8.0, String::new());
-        figure.line(vec![(0.0, 4.0), (20.0, 4.0)], Stroke { width: 1.4, ..look.stroke() });
-        mark(&mut figure, look, (10.0, 4.0));
-        out += &Drawing::of(&figure, "swatch")?.symbol(&format!("swatch-{i}"));
-    }
-    Ok(out)
-}
-
-/// Label of the row that this one is a variant of, if both are rows of the study: `guarded(x) more` guards `x more`, else
-/// a row of the method `x`; a row on frames of its own belongs to the same method and parameters on the study's.
-fn inner<'a>(method: &MethodSummary, methods: &'a [MethodSummary]) -> Option<&'a str> {
-    if method.frames != RowFrames::Uniform {
-        let same = |m: &&MethodSummary| {
-            m.frames == RowFrames::Uniform && (&m.method, &m.params) == (&method.method, &method.params)
-        };
-        return methods.iter().find(same).map(|m| m.label.as_str());
-    }
-    let (name, suffix) =
-        method.label.strip_prefix("guarded(").and_then(|l| l.rsplit_once(')')).unwrap_or_default();
-    let label = format!("{name}{suffix}");
-    let id = method.method.strip_prefix("guarded(").and_then(|m| m.strip_suffix(')'));
-    let by_label = methods.iter().find(|m| !name.is_empty() && m.label == label);
-    by_label.or_else(|| methods.iter().find(|m| Some(m.method.as_str()) == id)).map(|m| m.label.as_str())
 }
 
 /// Draws a data point of about 4.4 points across.
@@ -199,57 +199,67 @@ pub(crate) fn mark(figure: &mut Figure, look: Look, (x, y): Point) {
     }
 }
 
+/// A circle around a data point.
+pub(crate) fn ring(figure: &mut Figure, (x, y): Point) {
+    let corner = |k: u32| {
+        let angle = f64::from(k) * std::f64::consts::TAU / 24.0;
+        (x + 5.0 * angle.cos(), y + 5.0 * angle.sin())
+    };
+    figure.line((0..=24).map(corner).collect(), Stroke::solid(MUTED, 0.7));
+}
+
 #[cfg(test)]
 mod tests {
-    use noisefloor_harness::AdaptiveFrames;
-
     use super::*;
 
-    fn row(label: &str, method: &str) -> MethodSummary {
-        MethodSummary {
-            label: label.into(),
-            method: method.into(),
-            name: String::new(),
-            citation: String::new(),
-            reference: String::new(),
-            params: serde_json::Value::Null,
-            notes: vec![],
-            frames: RowFrames::Uniform,
-            estimates_error: false,
-        }
+    fn looks(kinds: &[RowKind]) -> Looks {
+        let row = |kind: &RowKind| RowLook { label: String::new(), kind: *kind };
+        Looks::of(&kinds.iter().map(row).collect::<Vec<_>>())
     }
 
     #[test]
     fn a_guarded_row_has_the_colour_of_its_inner_row() {
-        let rows = [
-            row("guarded(geometric)", "guarded(geometric)"),
-            row("mc", "mc"),
-            row("virtual-flash", "virtual-flash"),
-            row("geometric", "geometric"),
-            row("projected", "guarded(virtual-flash)"),
-            row("projected twice", "guarded(virtual-flash)"),
-            row("virtual-flash steps=1", "virtual-flash"),
-            row("guarded(virtual-flash) steps=1", "guarded(virtual-flash)"),
-            MethodSummary {
-                frames: RowFrames::Adaptive(AdaptiveFrames::default()),
-                ..row("rounds", "geometric")
-            },
-            MethodSummary { frames: RowFrames::EqualTime { with: "geometric".into() }, ..row("more", "mc") },
+        use RowKind::{Baseline, Guarded, OtherFrames, Plain};
+        let kinds = [
+            Guarded(3),
+            Baseline,
+            Plain,
+            Plain,
+            Guarded(2),
+            Guarded(2),
+            Plain,
+            Guarded(6),
+            OtherFrames(3),
+            OtherFrames(1),
         ];
-        let looks = Looks::of(&rows);
-        assert_eq!(looks.get("mc").color, INK);
-        assert_eq!(looks.get("projected").color, looks.get("virtual-flash").color);
-        assert!(looks.get("projected").open && !looks.get("virtual-flash").open);
-        assert_eq!(looks.get("guarded(geometric)").color, looks.get("geometric").color);
-        assert_ne!(looks.get("geometric").color, looks.get("virtual-flash").color);
-        assert_eq!(looks.get("rounds").color, looks.get("geometric").color);
-        assert_eq!((looks.get("more").color, looks.get("more").dash), (INK, OTHER_FRAMES));
-        let (one, guarded_one) =
-            (looks.get("virtual-flash steps=1"), looks.get("guarded(virtual-flash) steps=1"));
-        assert_eq!(one.color, guarded_one.color);
-        for (i, a) in rows.iter().enumerate() {
-            assert!(rows[..i].iter().all(|b| looks.get(&a.label) != looks.get(&b.label)), "{}", a.label);
+        let looks = looks(&kinds);
+        let color = |at: usize| looks.row(at).color;
+        assert_eq!(color(1), INK);
+        assert_eq!((color(4), color(5)), (color(2), color(2)));
+        assert!(looks.row(4).open && !looks.row(2).open);
+        assert_eq!((color(0), color(8)), (color(3), color(3)));
+        assert_ne!(color(3), color(2));
+        assert_eq!((color(9), looks.row(9).dash), (INK, OTHER_FRAMES));
+        assert_eq!(color(6), color(7));
+        for i in 0..kinds.len() {
+            assert!((0..i).all(|k| looks.row(k) != looks.row(i)), "row {i}");
         }
+    }
+
+    #[test]
+    fn a_row_that_guards_nothing_known_has_a_colour_of_its_own() {
+        let looks = looks(&[RowKind::Guarded(0), RowKind::Guarded(7), RowKind::OtherFrames(0)]);
+        assert_eq!([0, 1, 2].map(|at| looks.row(at)), [0, 1, 2].map(nth));
+        assert_eq!(looks.row(9), UNKNOWN);
+    }
+
+    #[test]
+    fn an_exhibit_may_ask_for_another_mark() {
+        let looks = looks(&[RowKind::Plain]);
+        let asked =
+            exhibit::Look { open: Some(true), shape: Some(Shape::Diamond), ..exhibit::Look::of_row(0) };
+        assert_eq!(looks.get(asked), Look { open: true, marker: Marker::Diamond, ..nth(0) });
+        assert_eq!(looks.get(exhibit::Look::own(4)), nth(4));
     }
 
     #[test]
