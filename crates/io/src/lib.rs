@@ -18,6 +18,7 @@
 //! ends in a frame or in an [`IoError`] that names file, layer and channel.
 
 mod aliases;
+mod alignment;
 mod arrange;
 mod atomic;
 mod attributes;
@@ -31,6 +32,7 @@ mod limits;
 mod names;
 mod pfm;
 mod read;
+mod replace;
 mod window;
 mod write;
 
