@@ -1,0 +1,12 @@
+//! The source work, and what is said about it.
+
+use noisefloor_denoiser::Citation;
+
+/// The source work of both variants.
+pub const CITATION: Citation = Citation::new(
+    "finalstage2020",
+    "Simple Geometric Image Denoising for Real-time Path Tracers, slides about the Final Stage renderer, 2020",
+);
+
+/// What a reader of the method should know: idea, requirements, symbols, deviations, failures, reference; Markdown.
+pub const README: &str = include_str!("../README.md");
