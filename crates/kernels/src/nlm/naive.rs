@@ -7,8 +7,6 @@ use super::{
 };
 use crate::mirror::mirror;
 
-/// Usual ε of Δ².
-pub(super) const EPSILON: f32 = 1e-10;
 /// Largest Δ² of one pixel pair and channel.
 pub(super) const LARGEST: f32 = 1e4;
 
