@@ -10,7 +10,7 @@ pub struct Method {
     pub id: String,
     /// All parameters, defaults included.
     pub params: Value,
-    /// What its results depend on beside them, see [`Factory::version`].
+    /// What its results depend on beside them, see [`crate::Factory::version`].
     pub version: Option<String>,
     /// The method.
     pub denoiser: Box<dyn Denoiser>,
