@@ -1,72 +1,12 @@
+//! Who a method is: source, needs, claims, cost.
+
 use std::borrow::Cow;
 use std::fmt;
 
-use noisefloor_frame::{FeatureId, Flash, Frame, Sampling};
+use noisefloor_frame::{FeatureId, Frame};
 use noisefloor_stats::Level;
 
-use crate::{Alternative, Caveat, Citation, param::nearest};
-
-/// One input that a method cannot run without.
-#[derive(Debug, Clone, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Need {
-    /// Variance of the colour mean.
-    ColorVariance,
-    /// Half buffers of the colour.
-    ColorHalves,
-    /// At least this many samples in every pixel.
-    Samples(u32),
-    /// Independent samples, so that s²/n is the variance of the mean.
-    IndependentSamples,
-    /// A feature's mean.
-    Feature(FeatureId),
-    /// A feature's mean and its variance.
-    FeatureVariance(FeatureId),
-    /// A feature's half buffers.
-    FeatureHalves(FeatureId),
-    /// The virtual flash image: either ready-made or in parts.
-    Flash,
-    /// Variance of the virtual flash image (for parts: of both).
-    FlashVariance,
-}
-
-impl Need {
-    /// Whether the frame has it.
-    #[must_use]
-    pub fn is_met(&self, frame: &Frame) -> bool {
-        match self {
-            Self::ColorVariance => frame.color.variance.is_some(),
-            Self::ColorHalves => frame.color.halves.is_some(),
-            Self::Samples(n) => frame.samples.total().least() >= *n,
-            Self::IndependentSamples => frame.sampling == Sampling::Independent,
-            Self::Feature(id) => frame.feature(id).is_some(),
-            Self::FeatureVariance(id) => frame.feature(id).is_some_and(|f| f.variance.is_some()),
-            Self::FeatureHalves(id) => frame.feature(id).is_some_and(|f| f.halves.is_some()),
-            Self::Flash => frame.flash.is_some(),
-            Self::FlashVariance => match &frame.flash {
-                Some(Flash::Parts { base, light, .. }) => base.variance.is_some() && light.variance.is_some(),
-                Some(Flash::Ready(flash)) => flash.variance.is_some(),
-                None => false,
-            },
-        }
-    }
-}
-
-impl fmt::Display for Need {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::ColorVariance => f.write_str("variance of the colour mean"),
-            Self::ColorHalves => f.write_str("half buffers of the colour"),
-            Self::Samples(n) => write!(f, "at least {n} samples in every pixel"),
-            Self::IndependentSamples => f.write_str("independent samples"),
-            Self::Feature(id) => write!(f, "feature `{id}`"),
-            Self::FeatureVariance(id) => write!(f, "feature `{id}` with its variance"),
-            Self::FeatureHalves(id) => write!(f, "feature `{id}` with its half buffers"),
-            Self::Flash => f.write_str("virtual flash image"),
-            Self::FlashVariance => f.write_str("variance of the virtual flash image"),
-        }
-    }
-}
+use crate::{Alternative, Caveat, Citation, Need, param::nearest};
 
 /// What a method promises, each with its conditions in [`MethodCard::notes`].
 #[derive(Debug, Clone, Default, PartialEq)]

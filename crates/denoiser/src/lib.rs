@@ -28,9 +28,13 @@
 //! [`Registry`] is a list of factories.
 
 mod adaptive;
+mod alternative;
+mod because;
+mod built;
 mod card;
 mod caveat;
 mod citation;
+mod denoiser;
 mod error;
 mod exposure;
 mod factory;
@@ -38,19 +42,23 @@ mod guarded;
 mod input;
 mod interval;
 mod mc;
-mod needs;
+mod need;
 mod output;
 pub mod param;
 mod registry;
 mod timer;
+mod ways_out;
 
 #[cfg(test)]
 mod tests;
 
 pub use adaptive::Adaptive;
-pub use card::{Claim, Claims, Cost, Invariance, MethodCard, Need, Role};
+pub use alternative::{Alternative, Setting};
+pub use built::Method;
+pub use card::{Claim, Claims, Cost, Invariance, MethodCard, Role};
 pub use caveat::Caveat;
 pub use citation::{Citation, Entry, Published};
+pub use denoiser::Denoiser;
 pub use error::DenoiseError;
 pub use exposure::Exposed;
 pub use factory::{BuildError, Factory, check_overrides, method};
@@ -58,29 +66,8 @@ pub use guarded::Guarded;
 pub use input::{Diagnostics, Input};
 pub use interval::{half_widths, into_half_widths};
 pub use mc::{MonteCarlo, NoParams, mc};
-pub use needs::{Alternative, Setting};
+pub use need::Need;
 pub use output::{Bound, Diagnostic, Figure, Output, StageSeconds, Unit};
 pub use param::{Choices, Kind, Param, ParamError, Parameters};
-pub use registry::{Method, Registry};
+pub use registry::Registry;
 pub use timer::StageTimer;
-
-/// A denoiser: see the crate documentation for a complete one.
-pub trait Denoiser: Send + Sync {
-    /// Identity, citation, inputs it needs and claims. Cheap; does not depend on any frame.
-    fn card(&self) -> MethodCard;
-
-    /// Denoises `input.target`.
-    ///
-    /// The same input gives the same bits for any number of threads. The target has been sanitised (no non-finite
-    /// values) by whoever built the [`Input`], see [`Input::new`].
-    ///
-    /// # Errors
-    /// [`DenoiseError::MissingInputs`] before any work if something in [`MethodCard::needs`] is absent, and whatever the
-    /// method's own limits are.
-    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError>;
-
-    /// The part of the method that steers adaptive sampling, if it has one.
-    fn adaptive(&self) -> Option<&dyn Adaptive> {
-        None
-    }
-}

@@ -1,27 +1,11 @@
+//! Methods by name.
+
 use std::sync::Arc;
 
 use serde_json::{Map, Value};
 
 use crate::param::{nearest, shown};
-use crate::{BuildError, Denoiser, Factory, Guarded, factory};
-
-/// A method ready to run, with the parameters that made it.
-pub struct Method {
-    /// Id as asked for, such as `guarded(virtual-flash)`.
-    pub id: String,
-    /// All parameters, defaults included.
-    pub params: Value,
-    /// What its results depend on beside them, see [`Factory::version`].
-    pub version: Option<String>,
-    /// The method.
-    pub denoiser: Box<dyn Denoiser>,
-}
-
-impl std::fmt::Debug for Method {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Method").field("id", &self.id).field("params", &self.params).finish_non_exhaustive()
-    }
-}
+use crate::{BuildError, Factory, Guarded, Method, factory};
 
 /// The methods that a program knows.
 #[derive(Debug, Clone, Default)]

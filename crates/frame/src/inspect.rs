@@ -1,25 +1,17 @@
 //! Whether the buffers of a frame or a reference can belong together, and what is wrong with them.
 
 mod average;
+mod fidelity;
 mod precision;
 mod reference;
 mod spread;
 #[cfg(test)]
 mod tests;
 
-use crate::{Counts, Estimate, FeatureId, Finding, Flash, Frame, FrameError, Hygiene, Sampling};
+use crate::{Counts, Estimate, FeatureId, Flash, Frame, FrameError, Hygiene, Sampling};
 use average::{Film, Halves};
+pub use fidelity::Fidelity;
 pub(crate) use precision::Precision;
-
-/// What compression did to the numbers of a file.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Fidelity {
-    /// Every number is the one that was written, rounded to the format's precision at most.
-    #[default]
-    Rounded,
-    /// A lossy compression changed them, so that only gross contradictions can be told from its errors.
-    Lossy,
-}
 
 impl Frame {
     /// The one place where a frame that came from outside is checked before numbers are made from it: refuses buffers
@@ -80,9 +72,4 @@ impl Frame {
             .chain(features.map(|(id, estimate)| (id.name(), estimate)))
             .chain(flash)
     }
-}
-
-/// A finding about a layer, or about the colour if `subject` is empty.
-pub(crate) fn finding(kind: crate::FindingKind, subject: &str, text: String) -> Finding {
-    Finding::new(kind, subject, text)
 }

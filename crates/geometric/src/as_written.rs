@@ -8,7 +8,7 @@ use noisefloor_frame::{FeatureId, Image};
 
 use crate::corrected::{describe, needs, no_variance, untested};
 use crate::guides::Tests;
-use crate::{AsWrittenParams, CITATION, Material, algorithm};
+use crate::{AsWrittenParams, CITATION, Material, README, algorithm};
 
 const ID: &str = "geometric-as-written";
 
@@ -16,7 +16,7 @@ const ID: &str = "geometric-as-written";
 #[must_use]
 pub fn geometric_as_written() -> Arc<dyn Factory> {
     let summary = "the same by the letter of its slides, slips included; a fixture, not a baseline";
-    method(ID, summary, Some(crate::README), GeometricAsWritten::new)
+    method(ID, summary, Some(README), GeometricAsWritten::new)
 }
 
 /// The pseudo-code of the slides, literally, line by line. Its output has either sign and is of no use as an image.

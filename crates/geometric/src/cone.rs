@@ -11,11 +11,14 @@ use rayon::prelude::*;
 
 use crate::guides::{Guides, OUTSIDE};
 
+mod alike;
 mod row;
 #[cfg(test)]
 mod tests;
 
-use row::{Columns, LANES, Own, PLANES, Strip, TOGETHER};
+use alike::Own;
+pub(crate) use alike::Thresholds;
+use row::{Columns, LANES, PLANES, Strip, TOGETHER};
 
 /// Rows that one thread takes at a time: enough that their windows overlap; ours, for speed.
 const BAND: usize = 8;
@@ -34,17 +37,6 @@ pub(crate) struct Cone<'a> {
     planes: [Vec<f32>; PLANES],
     /// Albedo, if it is compared.
     albedo: Option<[Vec<f32>; 3]>,
-}
-
-/// Up to where neighbours are alike.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Thresholds {
-    /// Largest depth difference as a fraction of the larger depth.
-    pub depth: f32,
-    /// Smallest cosine between normals.
-    pub normal: f32,
-    /// Largest difference of albedo in a channel, as a fraction of the largest value of both pixels.
-    pub albedo: f32,
 }
 
 impl<'a> Cone<'a> {

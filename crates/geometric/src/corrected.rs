@@ -7,7 +7,7 @@ use noisefloor_denoiser::{
 use noisefloor_frame::{FeatureId, Image};
 
 use crate::guides::Tests;
-use crate::{CITATION, CorrectedParams, FloorUnit, Material, Spread, algorithm};
+use crate::{CITATION, CorrectedParams, FloorUnit, Material, README, Spread, algorithm};
 
 const ID: &str = "geometric-corrected";
 
@@ -15,7 +15,7 @@ const ID: &str = "geometric-corrected";
 #[must_use]
 pub fn geometric_corrected() -> Arc<dyn Factory> {
     let summary = "cone filter over neighbours of like material, depth and normal, radius from the noise";
-    method(ID, summary, Some(crate::README), GeometricCorrected::new)
+    method(ID, summary, Some(README), GeometricCorrected::new)
 }
 
 /// The simple geometric denoiser with its evident slips mended: see the crate documentation.

@@ -2,9 +2,10 @@
 
 use noisefloor_frame::{Finding, FindingKind};
 
+use crate::Sketch;
 use crate::against::Against;
 use crate::brightness::shrunk;
-use crate::{ALPHA, SCENE_ALPHA, Sketch, p_value};
+use crate::chance::{ALPHA, SCENE_ALPHA, p_value};
 
 /// Smallest relative difference of all frames together that is told.
 const LEAST_EFFECT: f64 = 1e-3;

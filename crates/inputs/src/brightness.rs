@@ -11,8 +11,8 @@ use noisefloor_stats::holm_adjusted;
 
 use crate::against::Against;
 use crate::blocks::median;
+use crate::chance::{ALPHA, p_value};
 use crate::sums::Sums;
-use crate::{ALPHA, p_value};
 
 /// Whether and how the brightness of a whole frame was tested.
 #[derive(Debug, Clone, Copy, PartialEq)]

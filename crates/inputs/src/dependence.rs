@@ -10,8 +10,8 @@
 use noisefloor_frame::{Finding, FindingKind, Frame, Image};
 
 use crate::against::{Against, grey};
+use crate::chance::{ALPHA, p_value};
 use crate::sums::sums;
-use crate::{ALPHA, p_value};
 
 /// Smallest correlation that is told.
 const LEAST_CORRELATION: f64 = 0.03;

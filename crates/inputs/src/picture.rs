@@ -5,13 +5,16 @@
 //! linear in x, so noise has no mean in it, and its standard error comes from blocks. Exposure and the sRGB curve are
 //! judged by the middle of the relative distances of block means.
 
+mod fit;
 mod moves;
 mod tone;
 
 use noisefloor_frame::{Finding, FindingKind, Image};
 
-use crate::against::Against;
+use crate::against::{Against, grey};
 use crate::brightness::Brightness;
+use crate::chance::ALPHA;
+use crate::number::number;
 use crate::sums::Sums;
 use tone::Tone;
 
@@ -30,7 +33,7 @@ pub(crate) fn frame(
     let all = Sums::total(blocks);
     let ratio = if all.light > 0.0 { all.seen / all.light } else { f64::NAN };
     let moved = moves::find(against, x, invalid, ratio);
-    let tested = matches!(whole, Brightness::Tested { p, .. } if p <= crate::ALPHA);
+    let tested = matches!(whole, Brightness::Tested { p, .. } if p <= ALPHA);
     let differs = tested || by_pixels >= CERTAIN || (moved.is_none() && tone::leans(against, x, invalid));
     let demand = match whole {
         _ if moved.is_some() => None,
@@ -48,7 +51,7 @@ pub(crate) fn image(against: &Against<'_>, x: &Image) -> Option<Finding> {
     let (mut light, mut seen) = (0.0, 0.0);
     let r = against.reference.mean();
     for pixel in (0..x.pixels()).filter(|&p| against.usable(p, &[])) {
-        let (a, b) = (crate::against::grey(x, pixel), crate::against::grey(r, pixel));
+        let (a, b) = (grey(x, pixel), grey(r, pixel));
         if a.is_finite() {
             let w = against.weights[against.blocks.of(pixel)];
             light += w * f64::from(b);
@@ -73,15 +76,4 @@ fn told(ratio: f64, moved: Option<(String, f64)>, tone: Option<Tone>) -> Option<
         Some(z) => found.with_standard_errors(z),
         None => found,
     })
-}
-
-/// A factor with three digits, or two below 10.
-pub(crate) fn number(value: f64) -> String {
-    match value.abs() {
-        v if v >= 100.0 => format!("{value:.0}"),
-        v if v >= 10.0 => format!("{value:.1}"),
-        v if v >= 0.1 => format!("{value:.2}"),
-        v if v >= 0.01 => format!("{value:.3}"),
-        _ => format!("{value:.2e}"),
-    }
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::Planes;
 use crate::against::{Against, grey};
 use crate::brightness::{self, Brightness};
+use crate::chance::ALPHA;
 use crate::sums::Sums;
 
 /// Hashes of a frame's planes, sums of its brightness, and some of its pixels.
@@ -63,7 +64,7 @@ impl Sketch {
         };
         let difference = |a: &Image, b: &Image, p: usize| f64::from(grey(a, p)) - f64::from(grey(b, p));
         let halves = frame.color.halves.as_ref();
-        let differs = matches!(whole, Brightness::Tested { p, .. } if p <= crate::ALPHA);
+        let differs = matches!(whole, Brightness::Tested { p, .. } if p <= ALPHA);
         Self {
             planes,
             sound: true,

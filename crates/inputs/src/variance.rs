@@ -9,8 +9,9 @@ use noisefloor_frame::{Finding, FindingKind, Frame};
 
 use crate::against::Against;
 use crate::blocks::median;
+use crate::chance::{ALPHA, p_value};
+use crate::number::number;
 use crate::sums::Sums;
-use crate::{ALPHA, p_value};
 
 /// Smallest factor that is told, either way.
 const LEAST_FACTOR: f64 = 2.0;
@@ -88,7 +89,7 @@ pub(crate) fn frame(against: &Against<'_>, frame: &Frame, blocks: &[Sums], diffe
     };
     let text = format!(
         "the stated variance is {} times that which the distance to the reference shows{why}",
-        crate::picture::number(factor)
+        number(factor)
     );
     Some(
         Finding::new(FindingKind::VarianceAgainstReference, "", text)

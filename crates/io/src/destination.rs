@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use crate::IoError;
-use crate::atomic::{prepare, replace};
+use crate::replace::{prepare, replace};
 
 /// Links of a chain that leads nowhere; the system itself follows no more.
 const MOST_LINKS: usize = 40;

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod aliases;
+mod alignment;
 mod arrange;
 mod atomic;
 mod attributes;
@@ -14,6 +15,7 @@ mod limits;
 mod names;
 mod pfm;
 mod read;
+mod replace;
 mod window;
 mod write;
 

@@ -1,13 +1,10 @@
 //! Where the pixels of a file stand in its picture.
 
 use std::fmt;
-use std::path::Path;
 
 use exr::math::Vec2;
 use exr::meta::attribute::IntegerBounds;
 use exr::meta::header::Header;
-
-use crate::IoError;
 
 /// A rectangle of pixels in the coordinates of the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -54,32 +51,6 @@ impl Window {
                 size: (display.size.width(), display.size.height()),
             },
         }
-    }
-
-    /// Checks that the pixels of `file` are those of `other`, so that one can be held against the other: equal sizes, equal
-    /// origins of the data windows and of the display windows.
-    ///
-    /// # Errors
-    /// [`IoError::SizeMismatch`], [`IoError::WindowMismatch`].
-    pub fn expect(&self, file: &Path, other: &Self, other_file: &Path) -> Result<(), IoError> {
-        if self.data.size != other.data.size {
-            return Err(IoError::SizeMismatch {
-                file: file.to_owned(),
-                width: self.data.size.0,
-                height: self.data.size.1,
-                other: other_file.to_owned(),
-                expected_width: other.data.size.0,
-                expected_height: other.data.size.1,
-            });
-        }
-        if self.data.origin != other.data.origin || self.display.origin != other.display.origin {
-            return Err(IoError::WindowMismatch {
-                file: file.to_owned(),
-                other: other_file.to_owned(),
-                windows: Box::new([*self, *other]),
-            });
-        }
-        Ok(())
     }
 
     pub(crate) fn display_bounds(&self) -> IntegerBounds {

@@ -2,7 +2,7 @@ use noisefloor_frame::PixelFilter;
 
 use crate::bvh::Ray;
 use crate::camera::Eye;
-use crate::request::check_size;
+use crate::limits::check_size;
 use crate::surface::Scatter;
 use crate::{Prepared, RenderError};
 

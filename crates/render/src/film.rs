@@ -4,11 +4,8 @@ use std::sync::Mutex;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use crate::memory::zeros;
+use crate::planes::{Planes, zeros};
 use crate::{Progress, RenderError};
-
-/// Image planes, row by row.
-pub type Planes = Vec<Vec<f32>>;
 
 /// Size of an image and the work in one of its pixels.
 #[derive(Debug, Clone, Copy)]

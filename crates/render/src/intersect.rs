@@ -5,26 +5,11 @@
 //! taken back.
 
 use glam::{Affine3A, Vec3A};
-use noisefloor_scenes::Body;
 
-use crate::bvh::{Bvh, Hit, Ray, Stack};
+use crate::bvh::{Hit, Ray, Stack};
+use crate::interaction::Interaction;
+use crate::moving::to_local;
 use crate::prepare::Prepared;
-use crate::surface::Interaction;
-
-/// A body ready for rays.
-#[derive(Debug, Clone)]
-pub struct Moving {
-    /// Its movement from when the shutter opens.
-    pub body: Body,
-    /// Of its primitives, numbered from 0.
-    pub bvh: Bvh,
-    /// Index of its first primitive among those of the scene.
-    pub first: u32,
-    /// Sphere around it when the shutter opens.
-    pub center: Vec3A,
-    /// Radius of the sphere.
-    pub radius: f32,
-}
 
 /// What a thread needs to follow rays; made once, so that no ray pays for clearing it.
 #[derive(Debug, Clone)]
@@ -129,25 +114,5 @@ impl Prepared {
                 [start, self.bodies[body].body.at(1.0).transform_point3a(start)]
             }
         }
-    }
-}
-
-/// The same ray before a movement.
-#[inline]
-fn to_local(ray: &Ray, pose: &Affine3A) -> Ray {
-    let back = pose.matrix3.transpose(); // of a rotation: its inverse
-    Ray { origin: back * (ray.origin - pose.translation), direction: back * ray.direction }
-}
-
-impl Moving {
-    /// The ray before the movement, or nothing if it misses the sphere around the body.
-    #[inline]
-    fn local(&self, ray: &Ray, pose: &Affine3A, limit: f32) -> Option<Ray> {
-        let to = pose.transform_point3a(self.center) - ray.origin;
-        let along = to.dot(ray.direction);
-        let aside = (to - ray.direction * along).length_squared();
-        let near =
-            aside <= self.radius * self.radius && along >= -self.radius && along - self.radius <= limit;
-        near.then(|| to_local(ray, pose))
     }
 }

@@ -7,15 +7,16 @@ use glam::Vec3A;
 use crate::bsdf::{Event, Lobe};
 use crate::bvh::{Hit, Ray};
 use crate::camera::Eye;
+use crate::geometry::Geometry;
+use crate::interaction::Interaction;
 use crate::intersect::Traversal;
 use crate::lights::LightSample;
+use crate::limits::DEEPEST;
 use crate::math::power_heuristic;
 use crate::medium::Flight;
 use crate::photons::PhotonMaps;
 use crate::prepare::Prepared;
-use crate::request::DEEPEST;
 use crate::sampler::Sampler;
-use crate::surface::{Geometry, Interaction};
 
 /// Edges before Russian roulette starts.
 const SURE_EDGES: u32 = 3;

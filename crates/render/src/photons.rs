@@ -12,12 +12,12 @@ use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use crate::RenderError;
 use crate::bsdf::Event;
 use crate::bvh::Ray;
+use crate::interaction::Interaction;
 use crate::intersect::Traversal;
 use crate::lights::Ball;
+use crate::limits::DEEPEST;
 use crate::prepare::Prepared;
-use crate::request::DEEPEST;
 use crate::sampler::{Independent, Sampler, mix, pixel_key};
-use crate::surface::Interaction;
 
 /// Refuses numbers of paths and radii that no map can have.
 fn check(settings: &PhotonSettings) -> Result<(), RenderError> {

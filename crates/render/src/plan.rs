@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::Vec3A;
 use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Variance};
 
-use crate::film::Planes;
 use crate::path::Outcome;
+use crate::planes::Planes;
 use crate::tally::Tally;
 use crate::{Integrator, Keep, Quantity, Record, RenderError, RenderRequest};
 

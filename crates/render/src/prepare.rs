@@ -1,3 +1,5 @@
+//! From a scene to what rays and light paths need.
+
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::{Vec2, Vec3, Vec3A};
@@ -9,10 +11,11 @@ use noisefloor_scenes::{
 use obvhs::aabb::Aabb;
 
 use crate::bvh::{Bvh, Primitive};
-use crate::intersect::Moving;
+use crate::geometry::{Attributes, Geometry, NONE};
 use crate::lights::{Ball, Lights, LightsBuilder, SunDisc};
 use crate::medium::Medium;
-use crate::surface::{Attributes, Geometry, NONE, Scatter, Surface, Tint};
+use crate::moving::Moving;
+use crate::surface::{Scatter, Surface, Tint};
 use crate::{Quantity, RenderError, available};
 
 /// A scene ready for rendering: checked, with its acceleration structure. Make it once, render many frames.

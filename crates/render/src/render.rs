@@ -5,11 +5,13 @@ use noisefloor_frame::{Counts, Estimate, Frame, Image, Provenance, Reference, Sa
 
 use crate::bvh::Ray;
 use crate::camera::Eye;
-use crate::film::{Extent, Planes, develop};
+use crate::film::{Extent, develop};
 use crate::intersect::Traversal;
+use crate::limits::{DEEPEST, LONGEST_SEQUENCE};
 use crate::path::{View, trace};
 use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
-use crate::request::{DEEPEST, LONGEST_SEQUENCE, REVISION};
+use crate::planes::Planes;
+use crate::request::REVISION;
 use crate::sampler::{Independent, OwenSobol, Sampler, Sequence, SobolTables, pixel_key};
 use crate::tally::Tally;
 use crate::{FeatureHit, Integrator, Keep, Progress, RenderError, RenderRequest};

@@ -1,15 +1,12 @@
+//! One image to render, and its random numbers.
+
 use noisefloor_frame::{PixelFilter, Sampling};
 
+use crate::limits::{DEEPEST, LONGEST_SEQUENCE, MAX_MEMORY, check_size};
 use crate::{FeatureHit, Integrator, PhotonMaps, Prepared, Record, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
 pub const REVISION: u32 = 3;
-
-/// Deepest path that may be asked for.
-pub const DEEPEST: u32 = 1024;
-
-/// Longest low-discrepancy sequence of one randomisation.
-pub const LONGEST_SEQUENCE: u32 = 1 << 16;
 
 /// Random seed of frame `frame` of a sequence that starts with `seed`: frame 0 has the seed itself, every other one
 /// numbers that have nothing to do with it.
@@ -103,7 +100,7 @@ impl<'a> RenderRequest<'a> {
             feature_hit: FeatureHit::First,
             integrator: Integrator::PathTracing,
             photons: None,
-            max_memory: crate::MAX_MEMORY,
+            max_memory: MAX_MEMORY,
         }
     }
 
@@ -148,19 +145,6 @@ impl<'a> RenderRequest<'a> {
             _ => {}
         }
         Ok(())
-    }
-}
-
-/// Checks an image size.
-pub(crate) fn check_size(width: usize, height: usize) -> Result<(), RenderError> {
-    // 2^28 pixels of three planes take 3 GiB: more is a typing error.
-    match width.checked_mul(height) {
-        Some(pixels) if (1..=1 << 28).contains(&pixels) => Ok(()),
-        _ => Err(RenderError::InvalidRequest {
-            parameter: "width × height",
-            value: format!("{width}×{height}"),
-            expected: "1 to 2^28 pixels".into(),
-        }),
     }
 }
 

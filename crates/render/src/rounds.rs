@@ -6,10 +6,10 @@ use noisefloor_frame::{Counts, Frame, Image, Samples, Sampling};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
-use crate::film::Planes;
+use crate::limits::LONGEST_SEQUENCE;
 use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH};
+use crate::planes::Planes;
 use crate::render::{Shot, Totals, blank, provenance};
-use crate::request::LONGEST_SEQUENCE;
 use crate::tally::Tally;
 use crate::{Keep, Progress, RenderError, RenderRequest};
 

@@ -1,6 +1,8 @@
+//! What moves, and how.
+
 use glam::{Affine3A, DMat3, DVec3, Quat, Vec3};
 
-use crate::{CameraSpec, MaterialIndex, Mesh, Scene};
+use crate::CameraSpec;
 
 /// How a scene changes from frame to frame. The scene itself is frame 0 at the moment when the shutter opens.
 ///
@@ -19,7 +21,7 @@ pub struct Animation {
 /// Meshes that move together without changing their shape.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Body {
-    /// Indices into [`Scene::meshes`]; no mesh belongs to two bodies.
+    /// Indices into [`crate::Scene::meshes`]; no mesh belongs to two bodies.
     pub meshes: Vec<usize>,
     /// Way per frame in scene units.
     pub translation: Vec3,
@@ -80,7 +82,7 @@ impl Body {
     }
 
     /// The same movement from a later moment on.
-    fn later(&self, frames: f32) -> Self {
+    pub(crate) fn later(&self, frames: f32) -> Self {
         let spin = self.spin.map(|s| Spin { center: s.center + self.translation * frames, ..s });
         Self { spin, ..self.clone() }
     }
@@ -92,184 +94,7 @@ impl Animation {
     pub fn blurs(&self) -> bool {
         self.shutter > 0.0 && !self.bodies.is_empty()
     }
-
-    /// The first number that has no meaning, or the first moving mesh that may not move: what, its value, what is
-    /// allowed.
-    #[must_use]
-    pub fn problem(&self, scene: &Scene) -> Option<(String, String, &'static str)> {
-        let found = |what: &str, value: String, allowed| Some((what.to_owned(), value, allowed));
-        if !(0.0..=1.0).contains(&self.shutter) {
-            return found("shutter", self.shutter.to_string(), "in [0, 1] of a frame");
-        }
-        let camera = self.camera;
-        if !(-360.0..=360.0).contains(&camera.orbit_degrees) {
-            return found(
-                "orbit of the camera",
-                camera.orbit_degrees.to_string(),
-                "within ±360 degrees per frame",
-            );
-        }
-        if !is_way(camera.translation) {
-            return found("way of the camera", camera.translation.to_string(), WAY);
-        }
-        let mut taken = vec![false; scene.meshes.len()];
-        for (i, body) in self.bodies.iter().enumerate() {
-            if !is_way(body.translation) {
-                return found(&format!("way of body {i}"), body.translation.to_string(), WAY);
-            }
-            if let Some(spin) = body.spin {
-                if !is_way(spin.center) {
-                    return found(&format!("centre of body {i}"), spin.center.to_string(), WAY);
-                }
-                if (spin.axis.length() - 1.0).abs() > 1e-4 || !spin.axis.is_finite() {
-                    return found(&format!("axis of body {i}"), spin.axis.to_string(), "of length 1");
-                }
-                if !(-3600.0..=3600.0).contains(&spin.degrees) {
-                    let allowed = "within ±3600 degrees per frame";
-                    return found(&format!("rotation of body {i}"), spin.degrees.to_string(), allowed);
-                }
-            }
-            for &mesh in &body.meshes {
-                let what = format!("mesh of body {i}");
-                match scene.meshes.get(mesh) {
-                    None => return found(&what, mesh.to_string(), "below the number of meshes"),
-                    Some(m) if emits(scene, m.material) => {
-                        return found(&what, mesh.to_string(), "one that does not shine: lamps cannot move");
-                    }
-                    Some(_) if std::mem::replace(&mut taken[mesh], true) => {
-                        return found(&what, mesh.to_string(), "in one body only");
-                    }
-                    Some(_) => {}
-                }
-            }
-        }
-        None
-    }
-}
-
-const WAY: &str = "finite and at most 1e6";
-
-fn is_way(v: Vec3) -> bool {
-    v.is_finite() && v.abs().max_element() <= 1e6
-}
-
-fn emits(scene: &Scene, material: MaterialIndex) -> bool {
-    scene.materials.get(material).is_some_and(|m| m.emission != Vec3::ZERO)
-}
-
-impl Scene {
-    /// Frame `frame` of the sequence: everything where it is when the shutter opens, and the same movement from there on.
-    /// A scene without an animation is the same in every frame.
-    #[must_use]
-    pub fn at_frame(mut self, frame: u32) -> Self {
-        let Some(animation) = &mut self.animation else { return self };
-        let frames = frame as f32;
-        if frame == 0 {
-            return self;
-        }
-        self.camera = animation.camera.apply(&self.camera, frames);
-        for body in &mut animation.bodies {
-            let map = body.at(frames);
-            for &mesh in &body.meshes {
-                if let Some(mesh) = self.meshes.get_mut(mesh) {
-                    let moved: Mesh = std::mem::take(mesh).transformed(map);
-                    *mesh = moved;
-                }
-            }
-            *body = body.later(frames);
-        }
-        self
-    }
-
-    /// With this movement of the camera, whatever else moves.
-    #[must_use]
-    pub fn with_camera_move(mut self, camera: CameraMove) -> Self {
-        let animation = self.animation.take().unwrap_or_default();
-        self.animation = Some(Animation { camera, ..animation });
-        self
-    }
-
-    /// Makes meshes move, with the shutter open during `shutter` of each frame.
-    pub fn add_body(&mut self, shutter: f32, body: Body) {
-        let animation = self.animation.get_or_insert_default();
-        animation.shutter = shutter;
-        animation.bodies.push(body);
-    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn rolling() -> Body {
-        Body {
-            meshes: vec![0],
-            translation: Vec3::new(0.5, 0.0, 0.0),
-            spin: Some(Spin { center: Vec3::new(1.0, 2.0, 0.0), axis: Vec3::Z, degrees: 90.0 }),
-        }
-    }
-
-    #[test]
-    fn a_body_turns_about_its_moving_centre() {
-        let body = rolling();
-        let center = body.at(0.6).transform_point3(Vec3::new(1.0, 2.0, 0.0));
-        assert!((center - Vec3::new(1.3, 2.0, 0.0)).length() < 1e-6);
-        // One unit to the right of the centre; a quarter turn later above it.
-        let rim = body.at(1.0).transform_point3(Vec3::new(2.0, 2.0, 0.0));
-        assert!((rim - Vec3::new(1.5, 3.0, 0.0)).length() < 1e-6);
-    }
-
-    #[test]
-    fn a_later_frame_goes_on_where_the_earlier_one_ends() {
-        let mut scene = (crate::find("two-quads").unwrap().build)();
-        scene.add_body(0.5, rolling());
-        let scene = scene.with_camera_move(CameraMove { orbit_degrees: 3.0, translation: Vec3::X });
-        let two = scene.clone().at_frame(2);
-        let stepped = scene.clone().at_frame(1).at_frame(1);
-        assert!((two.camera.eye - stepped.camera.eye).length() < 1e-5);
-        assert!((two.camera.eye - scene.camera.eye).length() > 1.0);
-        for (a, b) in two.meshes[0].positions.iter().zip(&stepped.meshes[0].positions) {
-            assert!((*a - *b).length() < 1e-5, "{a} {b}");
-        }
-        assert_ne!(two.meshes[0].positions, scene.meshes[0].positions);
-        assert_eq!(two.meshes[1], scene.meshes[1]);
-        assert_eq!(two.check(), Ok(()));
-        assert_eq!(
-            (crate::find("cornell").unwrap().build)().at_frame(7),
-            (crate::find("cornell").unwrap().build)()
-        );
-    }
-
-    #[test]
-    fn movements_without_meaning_are_named() {
-        let base = (crate::find("cornell-diffuse").unwrap().build)();
-        let lamp = base.meshes.iter().position(|m| emits(&base, m.material)).unwrap();
-        let body = |f: &dyn Fn(&mut Body)| {
-            let mut body = Body { meshes: vec![0], ..rolling() };
-            f(&mut body);
-            Animation { shutter: 1.0, bodies: vec![body], ..Animation::default() }
-        };
-        let spin = |f: &dyn Fn(&mut Spin)| {
-            let mut s = rolling().spin.unwrap();
-            f(&mut s);
-            body(&|b| b.spin = Some(s))
-        };
-        assert_eq!(body(&|_| {}).problem(&base), None);
-        for (animation, word) in [
-            (Animation { shutter: f32::NAN, ..Animation::default() }, "shutter"),
-            (Animation { shutter: 1.5, ..Animation::default() }, "shutter"),
-            (body(&|b| b.meshes = vec![99]), "mesh of body 0"),
-            (body(&|b| b.meshes = vec![1, 1]), "mesh of body 0"),
-            (body(&|b| b.meshes = vec![lamp]), "mesh of body 0"),
-            (body(&|b| b.translation.y = f32::INFINITY), "way of body 0"),
-            (spin(&|s| s.axis = Vec3::ZERO), "axis of body 0"),
-            (spin(&|s| s.center.x = f32::NAN), "centre of body 0"),
-            (spin(&|s| s.degrees = 1e9), "rotation of body 0"),
-        ] {
-            let (what, _, _) = animation.problem(&base).expect(word);
-            assert_eq!(what, word);
-            let scene = Scene { animation: Some(animation), ..base.clone() };
-            assert!(scene.check().unwrap_err().to_string().contains(word));
-        }
-    }
-}
+mod tests;

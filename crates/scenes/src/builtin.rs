@@ -2,7 +2,6 @@
 
 pub mod bathroom;
 mod bathware;
-mod choir;
 mod church;
 mod column;
 pub mod conference;

@@ -1,11 +1,12 @@
+//! Whether a scene can be rendered.
+
+mod animation;
+mod medium;
+
 use glam::{Vec2, Vec3};
 use thiserror::Error;
 
-use crate::{Color, Material, Mesh, Scattering, Scene};
-
-/// The most radiance (or irradiance of a sun) that a light may have: beyond it, squares that statistics are made of
-/// leave the range of `f32`.
-pub const MOST_RADIANCE: f32 = 1e15;
+use crate::{Color, EnvironmentMap, MOST_RADIANCE, Material, Mesh, Scattering, Scene, Sky};
 
 /// Why a scene cannot be rendered.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -138,16 +139,16 @@ impl Scene {
         }
         match &self.sky {
             None => Ok(()),
-            Some(crate::Sky::Constant(c)) => self.radiance(|| "the sky".into(), *c),
-            Some(crate::Sky::Gradient { horizon, zenith, ground }) => {
+            Some(Sky::Constant(c)) => self.radiance(|| "the sky".into(), *c),
+            Some(Sky::Gradient { horizon, zenith, ground }) => {
                 [horizon, zenith, ground].into_iter().try_for_each(|c| self.radiance(|| "the sky".into(), *c))
             }
-            Some(crate::Sky::Map(map)) => map.problem().map_or(Ok(()), |(what, value)| {
+            Some(Sky::Map(map)) => map.problem().map_or(Ok(()), |(what, value)| {
                 Err(SceneError::OutOfRange {
                     scene: self.id.to_string(),
                     what,
                     value,
-                    allowed: crate::EnvironmentMap::ALLOWED,
+                    allowed: EnvironmentMap::ALLOWED,
                 })
             }),
         }

@@ -1,3 +1,5 @@
+//! Skies that are images.
+
 use glam::Vec3;
 
 use crate::MOST_RADIANCE;

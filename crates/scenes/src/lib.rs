@@ -11,22 +11,30 @@ pub mod analytic;
 mod animation;
 mod assemble;
 mod builtin;
+mod camera;
 mod catalog;
 mod check;
 mod environment;
 pub mod hash;
+mod light;
+mod limits;
 mod material;
 mod medium;
+mod mesh;
 mod scene;
+mod sequence;
 pub mod shape;
 pub mod texture;
 
 pub use animation::{Animation, Body, CameraMove, Spin};
+pub use camera::{CameraSpec, Lens};
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};
-pub use check::{MOST_RADIANCE, SceneError};
+pub use check::SceneError;
 pub use environment::EnvironmentMap;
+pub use light::{Sky, Sun};
+pub use limits::MOST_RADIANCE;
+pub use material::{Color, Material, Scattering};
 pub use medium::Medium;
-pub use scene::{
-    CameraSpec, Color, Lens, Material, MaterialIndex, Mesh, Models, Scattering, Scene, Sky, Sphere, Sun,
-};
+pub use mesh::{MaterialIndex, Mesh, Sphere};
+pub use scene::{Models, Scene};
 pub use texture::Texture;

@@ -1,6 +1,55 @@
+//! Surfaces: colours, and how they scatter.
+
 use glam::Vec3;
 
-use crate::{Color, Material, Scattering, Texture};
+use crate::Texture;
+
+/// A colour that may vary over a surface; linear RGB reflectance.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Color {
+    /// The same everywhere.
+    Constant(Vec3),
+    /// Looked up by surface coordinates.
+    Texture(Texture),
+}
+
+/// How a surface scatters light.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scattering {
+    /// Lambertian on both sides.
+    Diffuse {
+        /// Reflectance in [0, 1].
+        albedo: Color,
+    },
+    /// Perfect mirror.
+    Mirror {
+        /// Reflectance in [0, 1].
+        reflectance: Vec3,
+    },
+    /// Smooth dielectric; the surface must be closed.
+    Glass {
+        /// Refractive index inside over outside, above 1.
+        ior: f32,
+    },
+    /// Rough conductor: GGX with Smith masking and Schlick's Fresnel term.
+    Conductor {
+        /// Reflectance at normal incidence in [0, 1].
+        f0: Color,
+        /// GGX α in (0, 1].
+        alpha: f32,
+    },
+}
+
+/// A surface.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Material {
+    /// Name for people.
+    pub name: String,
+    /// How it scatters.
+    pub scattering: Scattering,
+    /// Radiance emitted on the front side (the side its geometric normal points to); zero for none.
+    pub emission: Vec3,
+}
 
 impl From<Vec3> for Color {
     fn from(constant: Vec3) -> Self {

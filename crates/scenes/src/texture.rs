@@ -96,12 +96,5 @@ impl Texture {
     }
 }
 
-/// 0 below `low`, 1 above `high`, smooth between; `high > low`.
-#[inline]
-fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
-    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-    t * t * (3.0 - 2.0 * t)
-}
-
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, Image};
 
 use crate::random::Stream;
-use crate::render::{Sampled, estimate};
+use crate::sampled::{Sampled, estimate};
 use crate::{Guides, SyntheticScene};
 
 /// Part of the colour that the flash image's reused light shows.

@@ -28,6 +28,7 @@ mod law;
 mod mean;
 mod random;
 mod render;
+mod sampled;
 mod scene;
 
 pub use classes::Classes;

@@ -1,21 +1,12 @@
 //! Draws the samples of a frame.
 
 use noisefloor_frame::{
-    BLOCK_SAMPLES, BlockTree, Camera, Estimate, Frame, Image, Moments, PixelFilter, Provenance, Samples,
-    Sampling, Variance,
+    BLOCK_SAMPLES, BlockTree, Camera, Frame, Moments, PixelFilter, Provenance, Samples, Sampling,
 };
-use rayon::prelude::*;
 
 use crate::random::Stream;
+use crate::sampled::{Sampled, estimate};
 use crate::{SyntheticScene, features};
-
-/// Statistics of one pixel.
-pub(crate) struct Sampled<const C: usize> {
-    pub(crate) mean: [f64; C],
-    /// Of the mean; ignored below 2 samples, like the halves.
-    pub(crate) variance: [f64; C],
-    pub(crate) halves: [[f64; C]; 2],
-}
 
 /// Purpose of the colour's random numbers; the features have others.
 const COLOR: u64 = 0;
@@ -77,28 +68,5 @@ impl SyntheticScene {
             }),
             ..Provenance::default()
         }
-    }
-}
-
-/// An estimate from the statistics of each pixel, rows in parallel.
-pub(crate) fn estimate<const C: usize>(
-    width: usize,
-    height: usize,
-    spp: u32,
-    pixel: impl Fn(usize) -> Sampled<C> + Sync,
-) -> Estimate {
-    let rows: Vec<Vec<Sampled<C>>> =
-        (0..height).into_par_iter().map(|y| (0..width).map(|x| pixel(y * width + x)).collect()).collect();
-    let gather = |value: &dyn Fn(&Sampled<C>, usize) -> f64| {
-        Image::from_fn(width, height, C, |c, x, y| value(&rows[y][x], c) as f32)
-    };
-    let mean = gather(&|s, c| s.mean[c]);
-    if spp < 2 {
-        return Estimate::from_mean(mean);
-    }
-    Estimate {
-        mean,
-        variance: Some(Variance::of_mean(gather(&|s, c| s.variance[c]))),
-        halves: Some([0, 1].map(|half| gather(&|s, c| s.halves[half][c]))),
     }
 }

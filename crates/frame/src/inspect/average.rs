@@ -2,7 +2,8 @@
 
 use crate::{Estimate, FrameError, Image, Samples};
 
-use super::{Fidelity, Precision};
+use super::fidelity::Fidelity;
+use super::precision::Precision;
 
 /// What is known about how samples were weighted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -6,7 +6,6 @@ use crate::{
 };
 
 use super::average::{self, Film};
-use super::finding;
 
 impl Reference {
     /// Checks a reference that came from outside: its halves and parts must average to its mean, as those of a frame
@@ -42,7 +41,7 @@ impl Reference {
         let count = invalid.iter().filter(|&&bad| bad).count();
         if count > 0 {
             let text = format!("{count} of {} pixels are not finite and are left out", invalid.len());
-            found.push(finding(FindingKind::InvalidPixels, "", text).with_value(count as f64));
+            found.push(Finding::new(FindingKind::InvalidPixels, "", text).with_value(count as f64));
         }
         let color = &mut self.frame.color;
         variance(color, &invalid, &mut found);
@@ -60,12 +59,12 @@ fn variance(color: &mut Estimate, invalid: &[bool], found: &mut Vec<Finding>) {
     let (pixels, values, of) = unknown(&[&image], invalid);
     if share_too_large(values, of) {
         let text = format!("{values} of {of} variances are unknown: they are taken for absent");
-        found.push(finding(FindingKind::VarianceDropped, "", text).with_value(pixels as f64));
+        found.push(Finding::new(FindingKind::VarianceDropped, "", text).with_value(pixels as f64));
         return;
     }
     if values > 0 {
         let text = format!("{values} of {of} variances are unknown; their {pixels} pixels are left out");
-        found.push(finding(FindingKind::UnknownVariance, "", text).with_value(pixels as f64));
+        found.push(Finding::new(FindingKind::UnknownVariance, "", text).with_value(pixels as f64));
     }
     color.variance = Some(Variance::of_mean(image));
 }
@@ -75,12 +74,12 @@ fn halves(color: &mut Estimate, invalid: &[bool], found: &mut Vec<Finding>) {
     let (pixels, values, of) = unknown(&[a, b], invalid);
     if share_too_large(values, of) {
         let text = format!("{values} of {of} values of its halves are unknown: they are taken for absent");
-        found.push(finding(FindingKind::HalvesDropped, "", text).with_value(pixels as f64));
+        found.push(Finding::new(FindingKind::HalvesDropped, "", text).with_value(pixels as f64));
         color.halves = None;
     } else if values > 0 {
         let text =
             format!("{values} of {of} values of its halves are unknown; their {pixels} pixels are left out");
-        found.push(finding(FindingKind::UnknownHalves, "", text).with_value(pixels as f64));
+        found.push(Finding::new(FindingKind::UnknownHalves, "", text).with_value(pixels as f64));
     }
 }
 

@@ -2,7 +2,8 @@
 
 use crate::{Estimate, Finding, FindingKind, Image, Moments, Samples, Variance};
 
-use super::{Fidelity, Precision, finding};
+use super::fidelity::Fidelity;
+use super::precision::Precision;
 
 /// Pixels below which the comparison says nothing.
 const LEAST_PIXELS: u64 = 64;
@@ -83,7 +84,7 @@ pub(super) fn against_halves(
         return None;
     }
     let text = format!("{}{}", words(mean, n), guess(mean, n));
-    let found = finding(FindingKind::VarianceAgainstHalves, subject, text);
+    let found = Finding::new(FindingKind::VarianceAgainstHalves, subject, text);
     // n = 2 has no spread at all: the ratio of each pixel is exactly 1.
     Some(found.with_value(1.0 / mean).with_standard_errors((1.0 - mean) / error.max(1e-3 * LEAST_RATIO)))
 }
@@ -137,7 +138,7 @@ pub(super) fn zero(
     let half = Precision::of(stated.data()).is_half() && stated.data().iter().any(|&v| v > 0.0);
     let why = if half { "; small ones may have vanished in half precision" } else { "" };
     let text = format!("{count} pixels state a variance of zero although their halves differ{why}");
-    Some(finding(FindingKind::ZeroVariance, subject, text).with_value(count as f64))
+    Some(Finding::new(FindingKind::ZeroVariance, subject, text).with_value(count as f64))
 }
 
 fn two_buffer(estimate: &Estimate, samples: &Samples) -> Option<Image> {

@@ -2,7 +2,9 @@
 
 use noisefloor_frame::Image;
 
+use super::fit::{correlation, position};
 use crate::against::{Against, grey};
+use crate::number::number;
 
 /// Most pixels by which a shift is looked for, each way.
 const REACH: i64 = 8;
@@ -68,18 +70,6 @@ impl Move {
     }
 }
 
-/// L with its standard error, from sums per row.
-pub(super) fn position(rows: &[[f64; 2]]) -> Option<(f64, f64)> {
-    let (q, a) = rows.iter().fold((0.0, 0.0), |(q, a), row| (q + row[0], a + row[1]));
-    let used = rows.iter().filter(|row| row[1] > 0.0).count();
-    if a <= 0.0 || used < 5 {
-        return None;
-    }
-    let l = q / a;
-    let spread: f64 = rows.iter().map(|row| (row[0] - l * row[1]).powi(2)).sum();
-    Some((l, (spread * used as f64 / (used as f64 - 1.0)).sqrt() / a))
-}
-
 /// What makes the frame fit, and the size of its evidence in standard errors.
 pub(super) fn find(against: &Against<'_>, x: &Image, invalid: &[bool], ratio: f64) -> Option<(String, f64)> {
     let gain =
@@ -143,7 +133,7 @@ fn moves(against: &Against<'_>, x: &Image, invalid: &[bool], gain: f64) -> Optio
     }
     let (found, _, z) = best.filter(|(found, ..)| alike(against, &xs, &rs, invalid, *found))?;
     let exposure =
-        if gain == 1.0 { String::new() } else { format!(" and a factor of {}", super::number(1.0 / gain)) };
+        if gain == 1.0 { String::new() } else { format!(" and a factor of {}", number(1.0 / gain)) };
     Some((format!("{}{exposure}", found.name()), z.min(1e6)))
 }
 
@@ -162,7 +152,7 @@ fn alike(against: &Against<'_>, xs: &[f32], rs: &[f32], invalid: &[bool], found:
     }
     let means: Vec<(f64, f64)> =
         sums.into_iter().filter(|s| s.2 > 0.0).map(|(a, b, n)| (a / n, b / n)).collect();
-    super::tone::correlation(&means) >= ALIKE
+    correlation(&means) >= ALIKE
 }
 
 /// Exchanged channels, such as BGR for RGB.

@@ -4,8 +4,10 @@ use std::fmt;
 
 use noisefloor_frame::Image;
 
+use super::fit::{correlation, position};
 use crate::against::Against;
 use crate::blocks::median;
+use crate::number::number;
 
 /// A change of tone that makes frame and reference fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -66,7 +68,7 @@ impl fmt::Display for Tone {
                 whole.abs(),
                 if whole.abs() == 1.0 { "stop" } else { "stops" }
             )),
-            false => Some(format!("a factor of {} on the reference", super::number(self.gain))),
+            false => Some(format!("a factor of {} on the reference", number(self.gain))),
         };
         let curve = match self.curve {
             Curve::None => None,
@@ -108,7 +110,7 @@ pub(super) fn leans(against: &Against<'_>, x: &Image, invalid: &[bool]) -> bool 
                 *row = [row[0] + w * (t - b) * (2.0 * a - b - t), row[1] + w * (t - b) * (t - b)];
             }
         }
-        super::moves::position(&rows).is_some_and(|(l, error)| l >= LEAN && l >= LEAST_ERRORS * error)
+        position(&rows).is_some_and(|(l, error)| l >= LEAN && l >= LEAST_ERRORS * error)
     })
 }
 
@@ -141,17 +143,6 @@ fn distance(means: &[(f64, f64)], gain: f64) -> Option<f64> {
         .map(|(a, b)| (a - gain * b).abs() / (a + gain * b))
         .collect();
     median(&mut all)
-}
-
-/// Correlation of the logarithms of block means.
-pub(super) fn correlation(means: &[(f64, f64)]) -> f64 {
-    let logs: Vec<(f64, f64)> =
-        means.iter().filter(|(a, b)| *a > 0.0 && *b > 0.0).map(|(a, b)| (a.ln(), b.ln())).collect();
-    let n = logs.len().max(1) as f64;
-    let (a, b) = logs.iter().fold((0.0, 0.0), |s, m| (s.0 + m.0 / n, s.1 + m.1 / n));
-    let product = |f: &dyn Fn(&(f64, f64)) -> f64| logs.iter().map(f).sum::<f64>();
-    let (aa, bb) = (product(&|m| (m.0 - a).powi(2)), product(&|m| (m.1 - b).powi(2)));
-    if aa > 0.0 && bb > 0.0 { product(&|m| (m.0 - a) * (m.1 - b)) / (aa * bb).sqrt() } else { 0.0 }
 }
 
 /// The factor by which the reference fits: ratio of means, each block in units of its own brightness.

@@ -8,8 +8,6 @@ use super::{
 };
 use crate::mirror::mirror;
 
-/// Usual ε of Δ² (Sec. 4, which prints no number): the authors' program's.
-pub(super) const EPSILON: f32 = 1e-10;
 /// Largest Δ² of one pixel pair and channel; ours: without variance Δ² would reach 1/ε and leave no digits for the others.
 pub(super) const LARGEST: f32 = 1e4;
 

@@ -1,7 +1,6 @@
 //! Parameters and input planes of the engine, and the check that both make sense. All limits are ours.
 
 use super::NlmError;
-use super::naive::EPSILON;
 use crate::tiles::first_bad;
 
 /// Largest window radius in pixels.
@@ -32,6 +31,9 @@ pub const MAX_K: f32 = 1e3;
 pub const MIN_FLOOR: f32 = 1e-6;
 /// Range of τ.
 pub const MAX_FLOOR: f32 = 1e6;
+
+/// Usual ε of Δ² (Sec. 4, which prints no number): the authors' program's.
+const EPSILON: f32 = 1e-10;
 
 /// What all passes of one call share.
 #[derive(Clone, Copy, Debug, PartialEq)]

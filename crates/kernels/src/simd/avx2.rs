@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::{ROUND, Simd};
+use super::operations::{ROUND, Simd};
 
 /// Eight lanes in a `ymm` register, truth values as all-ones or all-zeros lanes.
 #[derive(Debug)]

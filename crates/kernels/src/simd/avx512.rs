@@ -2,7 +2,7 @@
 
 use std::arch::x86_64::*;
 
-use super::Simd;
+use super::operations::Simd;
 
 /// Sixteen lanes in a `zmm` register, truth values in a mask register.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! The operations over an array of eight values, in plain Rust.
 
-use super::{ROUND, Simd};
+use super::operations::{ROUND, Simd};
 
 /// Eight lanes that the compiler maps to whatever the target has.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3A;
 
-use super::Scattered;
+use super::scattered::Scattered;
 use crate::math::{reflect, tangents, turn};
 
 /// Below this α the lobe is narrower than `f32` directions resolve.

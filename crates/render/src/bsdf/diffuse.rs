@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3A;
 
-use super::Scattered;
+use super::scattered::Scattered;
 use crate::math::cosine_hemisphere;
 
 /// Scattering function times cosine, and the density of [`sample`], for a cosine above 0.

@@ -3,22 +3,13 @@
 pub mod conductor;
 pub mod dielectric;
 pub mod diffuse;
+mod scattered;
 
 use glam::Vec3A;
 
+use crate::interaction::Interaction;
 use crate::math::reflect;
-use crate::surface::Interaction;
-
-/// A direction sampled from a model that is not perfectly specular.
-#[derive(Debug, Clone, Copy)]
-pub struct Scattered {
-    /// Unit direction.
-    pub direction: Vec3A,
-    /// Scattering function times cosine over density.
-    pub weight: Vec3A,
-    /// Density per solid angle, positive.
-    pub density: f32,
-}
+use scattered::Scattered;
 
 /// A model at a point, its textures looked up.
 #[derive(Debug, Clone, Copy)]

@@ -1,13 +1,16 @@
+//! Building: a binary tree, collapsed.
+
 use std::time::Duration;
 
-use glam::{Vec3A, Vec4};
+use glam::Vec3A;
 use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 
 use super::leaf::{Spheres, Triangles};
-use super::{Bvh, LEAF, NOTHING, Node, SPHERES};
+use super::node::{LEAF, Node, SPHERES};
+use super::tree::Bvh;
 
 /// What can be hit.
 #[derive(Debug, Clone, Copy)]
@@ -55,7 +58,7 @@ impl Bvh {
     /// Builds the hierarchy; hits name primitives by their index here. Nothing is hit if there are none.
     pub fn new(primitives: &[Primitive]) -> Self {
         if primitives.is_empty() {
-            return Self { nodes: vec![empty_node()], triangles: vec![], spheres: vec![], stack_size: 4 };
+            return Self { nodes: vec![Node::empty()], triangles: vec![], spheres: vec![], stack_size: 4 };
         }
         let boxes: Vec<Aabb> = primitives.iter().map(Primitive::bounds).collect();
         let params = BvhBuildParams {
@@ -95,7 +98,7 @@ impl Bvh {
 impl Collapse<'_> {
     fn run(mut self) -> Bvh {
         // (binary node, wide node to fill in, its depth)
-        self.out.nodes.push(empty_node());
+        self.out.nodes.push(Node::empty());
         let mut pending = vec![(0usize, 0usize, 1usize)];
         let mut deepest = 1;
         while let Some((binary, wide, depth)) = pending.pop() {
@@ -104,7 +107,7 @@ impl Collapse<'_> {
                 let link = if self.contents[child].fit_one_leaf() {
                     self.leaf(child)
                 } else {
-                    self.out.nodes.push(empty_node());
+                    self.out.nodes.push(Node::empty());
                     pending.push((child, self.out.nodes.len() - 1, depth + 1));
                     (self.out.nodes.len() - 1) as u32
                 };
@@ -181,10 +184,4 @@ impl Collapse<'_> {
             LEAF | SPHERES | (self.out.spheres.len() - 1) as u32
         }
     }
-}
-
-/// Boxes that no ray meets.
-fn empty_node() -> Node {
-    let (inside_out, children) = (Vec4::INFINITY, [NOTHING; 4]);
-    Node { bounds: [inside_out, inside_out, inside_out, -inside_out, -inside_out, -inside_out], children }
 }

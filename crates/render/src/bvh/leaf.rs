@@ -2,7 +2,9 @@
 
 use glam::{Vec3A, Vec4};
 
-use super::{Hit, Lanes, NOTHING};
+use super::lanes::Lanes;
+use super::node::NOTHING;
+use super::ray::Hit;
 
 /// Four triangles. Unused lanes have a zero normal, so that no ray hits them.
 #[derive(Debug, Clone)]

@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 
 use glam::Vec3A;
 
-use super::{FLUX, Kind, Light, Lights, cap_height};
+use super::source::{FLUX, Kind, Light, Lights, cap_height};
 use crate::math::{cosine_hemisphere, luminance, tangents, turn};
 
 /// Distance from a lamp at which its photons start, in units of its coordinates: as far as hits keep clear of surfaces.

@@ -3,49 +3,35 @@
 //! Stands in for the Sibenik cathedral of rousselle2013rdfc: a deep hall of columns under a thin lens focused on one of
 //! them, lit through windows in the aisles, so that most of what the camera sees is indirect light.
 
+mod choir;
+mod plan;
+mod stones;
+
 use glam::{Vec2, Vec3};
 
-use super::choir::{APSE, choir, vault};
 use super::church::{Opening, band};
 use super::column::{COLUMN_HEIGHT, Column, column};
 use crate::shape::{cuboid, lathe, quad};
-use crate::texture::{Bricks, Clouds, Texture, Tiles, Wood};
-use crate::{CameraSpec, Lens, Material, MaterialIndex, Mesh, Scene};
+use crate::texture::{Texture, Tiles};
+use crate::{CameraSpec, Lens, Material, Mesh, Scene};
+use choir::{APSE, choir, vault};
+use plan::{AISLE, BAY, BAYS, FAR, NAVE, NEAR, VAULT};
+use stones::{Stones, stones};
 
 pub const ID: &str = "nave";
 
-/// Bays between columns, and the length of one.
-pub const BAYS: u32 = 8;
-pub const BAY: f32 = 4.0;
 /// Bays whose right windows are in the sun; a tower shades the others.
 const SUNNY_BAYS: u32 = 5;
-/// Where the first bay begins.
-pub const NEAR: f32 = 8.0;
-pub const FAR: f32 = NEAR - BAY * BAYS as f32;
-/// Inner faces of the nave's and the aisles' walls on either side of the axis; thickness of the arcade.
-pub const NAVE: f32 = 3.2;
-pub const AISLE: f32 = 7.2;
+/// Thickness of the arcade.
 const THICK: f32 = 0.8;
-/// Heights: of the string course over the arcade, of the aisles' ceiling, of the springing of the vault.
+/// Heights: of the string course over the arcade, of the aisles' ceiling.
 const COURSE: f32 = 6.9;
 const CEILING: f32 = 6.8;
-pub const VAULT: f32 = 9.3;
 
 /// An arch of the arcade, in the wall that stands on the columns.
 const ARCH: Opening = Opening { half: 1.6, sill: 0.0, spring: 0.2 };
 const AISLE_WINDOW: Opening = Opening { half: 0.72, sill: 1.7, spring: 4.3 };
 const HIGH_WINDOW: Opening = Opening { half: 0.62, sill: 0.4, spring: 1.45 };
-
-/// Materials that several parts share.
-pub struct Stones {
-    pub ashlar: MaterialIndex,
-    pub dressed: MaterialIndex,
-    pub marble: MaterialIndex,
-    pub voussoirs: MaterialIndex,
-    pub plaster: MaterialIndex,
-    pub oak: MaterialIndex,
-    pub lead: MaterialIndex,
-}
 
 pub fn nave() -> Scene {
     let (eye, target) = (Vec3::new(1.75, 1.7, 6.2), Vec3::new(-0.75, 3.1, -6.0));
@@ -69,49 +55,6 @@ pub fn nave() -> Scene {
     vault(&mut scene, &stones);
     choir(&mut scene, &stones);
     scene
-}
-
-fn stones(scene: &mut Scene) -> Stones {
-    let clouds = |frequency: f32, a: Vec3, b: Vec3, seed: u32| {
-        Texture::Clouds(Clouds { frequency: Vec2::splat(frequency), octaves: 4, a, b, seed })
-    };
-    let mut add = |name: &str, texture: Texture| scene.add_material(Material::diffuse(name, texture));
-    Stones {
-        ashlar: add(
-            "ashlar",
-            Texture::Bricks(Bricks {
-                size: Vec2::new(0.8, 0.4),
-                joint: 0.02,
-                colors: [Vec3::new(0.66, 0.56, 0.43), Vec3::new(0.78, 0.7, 0.57)],
-                mortar: Vec3::new(0.42, 0.37, 0.3),
-                seed: 4,
-            }),
-        ),
-        dressed: add("limestone", clouds(5.0, Vec3::new(0.6, 0.54, 0.44), Vec3::new(0.82, 0.76, 0.65), 5)),
-        marble: add("marble", clouds(2.2, Vec3::new(0.4, 0.28, 0.23), Vec3::new(0.76, 0.62, 0.53), 6)),
-        voussoirs: add(
-            "voussoirs",
-            Texture::Stripes {
-                period: 0.62,
-                share: 0.5,
-                base: Vec3::new(0.78, 0.71, 0.58),
-                stripe: Vec3::new(0.5, 0.24, 0.16),
-            },
-        ),
-        plaster: add("plaster", clouds(0.9, Vec3::new(0.66, 0.6, 0.5), Vec3::new(0.84, 0.79, 0.7), 7)),
-        oak: add(
-            "oak",
-            Texture::Wood(Wood {
-                plank: 0.4,
-                length: 4.0,
-                ring: 0.035,
-                dark: Vec3::new(0.16, 0.09, 0.05),
-                light: Vec3::new(0.38, 0.25, 0.14),
-                seed: 8,
-            }),
-        ),
-        lead: scene.add_material(Material::diffuse("lead", Vec3::splat(0.06))),
-    }
 }
 
 /// Flags, and a chequered walk down the middle.

@@ -1,7 +1,6 @@
 use glam::{Vec2, Vec3};
 
-use super::noise::{split, value_noise};
-use super::smoothstep;
+use super::noise::{smoothstep, split, value_noise};
 use crate::hash::{lattice, mix, unit};
 
 /// Running bond: every other course is shifted by half a brick.

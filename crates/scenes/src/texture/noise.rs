@@ -2,6 +2,13 @@ use glam::{Vec2, Vec3};
 
 use crate::hash::mix;
 
+/// 0 below `low`, 1 above `high`, smooth between; `high > low`.
+#[inline]
+pub(super) fn smoothstep(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
 /// Integer part (rounded down) and remainder in [0, 1). Saturates beyond ±2³¹.
 ///
 /// Not `f32::floor`: without SSE4.1, which the default target lacks, that is a function call.

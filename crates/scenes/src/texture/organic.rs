@@ -1,7 +1,6 @@
 use glam::{Vec2, Vec3};
 
-use super::noise::{fractal, split, value_noise};
-use super::smoothstep;
+use super::noise::{fractal, smoothstep, split, value_noise};
 use crate::hash::{lattice, unit};
 
 /// Leaves with veins. The integer part of u numbers the leaf and picks its colour; its fraction runs across the

@@ -1,11 +1,12 @@
-//! Vault and ends of the [`nave`](super::nave): the apse, and the wall behind the camera.
+//! Vault and ends of the [`nave`](super): the apse, and the wall behind the camera.
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use glam::{Affine3A, Vec2, Vec3};
 
-use super::church::{Opening, band};
-use super::nave::{AISLE, BAY, BAYS, FAR, NAVE, NEAR, Stones, VAULT};
+use super::plan::{AISLE, BAY, BAYS, FAR, NAVE, NEAR, VAULT};
+use super::stones::Stones;
+use crate::builtin::church::{Opening, band};
 use crate::shape::{Vertex, cuboid, fan, quad, surface};
 use crate::{Material, Scene};
 
