@@ -55,7 +55,10 @@ fn uses(text: &str) -> Vec<(Vec<String>, bool)> {
 
 /// The exported macros of a file, which the root hands on wherever they stand.
 fn macros(text: &str, module: &[String]) -> Vec<(Vec<String>, bool)> {
-    let rest = text.split("#[macro_export]").skip(1).filter_map(|rest| rest.trim_start().strip_prefix("macro_rules! "));
+    let rest = text
+        .split("#[macro_export]")
+        .skip(1)
+        .filter_map(|rest| rest.trim_start().strip_prefix("macro_rules! "));
     let path = |name: &str| {
         let parts = std::iter::once("crate").chain(module.iter().map(String::as_str)).chain([name]);
         parts.map(str::to_owned).collect()
@@ -69,7 +72,10 @@ fn expand(tree: &str, before: &[String], found: &mut impl FnMut(Vec<String>)) {
     match tree.find('{') {
         None => {
             let plain = tree.split(" as ").next().unwrap_or(tree);
-            let parts = plain.split("::").map(|part| part.trim().to_owned()).filter(|part| part != "self" || before.is_empty());
+            let parts = plain
+                .split("::")
+                .map(|part| part.trim().to_owned())
+                .filter(|part| part != "self" || before.is_empty());
             found(before.iter().cloned().chain(parts).collect());
         }
         Some(open) => {
@@ -119,7 +125,12 @@ fn absolute(path: &[String], module: &[String], files: &Files) -> Option<Vec<Str
 }
 
 /// The file that defines what a path names: through what files hand on.
-fn defining(path: &[String], files: &Files, handed: &BTreeMap<Vec<String>, Vec<(Vec<String>, bool)>>, depth: usize) -> Option<Vec<String>> {
+fn defining(
+    path: &[String],
+    files: &Files,
+    handed: &BTreeMap<Vec<String>, Vec<(Vec<String>, bool)>>,
+    depth: usize,
+) -> Option<Vec<String>> {
     let file = (0..=path.len()).rev().map(|n| path[..n].to_vec()).find(|p| files.contains_key(p))?;
     let Some(item) = path.get(file.len()) else { return Some(file) };
     if depth < 8 {
@@ -163,7 +174,8 @@ fn arrows_inside_crates_go_down_only() {
         let source = entry.unwrap().path().join("src");
         let mut files = Files::new();
         read(&source, &[], &mut files);
-        let mut handed: BTreeMap<_, _> = files.iter().map(|(module, text)| (module.clone(), uses(text))).collect();
+        let mut handed: BTreeMap<_, _> =
+            files.iter().map(|(module, text)| (module.clone(), uses(text))).collect();
         let root: Vec<_> = files.iter().flat_map(|(module, text)| macros(text, module)).collect();
         handed.entry(Vec::new()).or_default().extend(root);
         let mut arrows: BTreeMap<Vec<String>, BTreeSet<Vec<String>>> = BTreeMap::new();

@@ -320,10 +320,12 @@ pub struct Report {
 
 /// `noisefloor export`.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:\n  noisefloor export noisefloor-results/quick                  into noisefloor-results/quick/export\n  \
+#[command(
+    after_help = "Examples:\n  noisefloor export noisefloor-results/quick                  into noisefloor-results/quick/export\n  \
     noisefloor export reports/rdfc-fig06 --out paper/figures    from a recorded study\n\n\
     tables/ID.csv has numbers without rounding, with the ends of their intervals in columns of their own; .json the same with \
-    the texts of the page; .tex a booktabs tabular; .md a pipe table. charts/ID.svg, .png and .pdf are the plots of the page.")]
+    the texts of the page; .tex a booktabs tabular; .md a pipe table. charts/ID.svg, .png and .pdf are the plots of the page."
+)]
 pub struct Export {
     /// Folder of a study that was run, or a recording
     pub dir: PathBuf,

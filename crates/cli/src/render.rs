@@ -9,12 +9,12 @@ use anyhow::bail;
 use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
-use noisefloor_study::{Maps, Shot};
 use noisefloor_render::{
     FeatureHit, Keep, PhotonMaps, Prepared, Purpose, Quantity, Record, RenderRequest, available,
     sequence_seed, usual_seed,
 };
 use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
+use noisefloor_study::{Maps, Shot};
 use serde_json::Map;
 
 use crate::args::Render;

@@ -4,9 +4,9 @@ use std::io::ErrorKind;
 
 use anyhow::{anyhow, bail};
 use noisefloor_harness::HarnessError;
-use noisefloor_study::summary::Summary;
 use noisefloor_io::IoError;
 use noisefloor_report::ReportOptions;
+use noisefloor_study::summary::Summary;
 
 use crate::args::Report;
 use crate::exit::Exit;

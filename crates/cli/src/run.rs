@@ -6,10 +6,10 @@ mod watch;
 use std::path::Path;
 
 use anyhow::{Context as _, bail};
-use noisefloor_study::summary::Summary;
 use noisefloor_harness::{StudyRun, memory_estimate, study_of_folder};
 use noisefloor_io::{ReadOptions, read_frame, scan_scenes};
 use noisefloor_report::ReportFiles;
+use noisefloor_study::summary::Summary;
 use noisefloor_study::{Maps, MethodRow, Study};
 
 use crate::args::Run;

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use noisefloor_study::{Maps, Shot};
 use noisefloor_render::{Integrator, PhotonSettings};
+use noisefloor_study::{Maps, Shot};
 
 use crate::args;
 use crate::exit::usage;

@@ -38,7 +38,10 @@
 
 pub use noisefloor_cli::main_with;
 pub use noisefloor_denoiser::{
-    Adaptive, Alternative, Bound, BuildError, Caveat, Choices, Citation, Claim, Claims, Cost, DenoiseError, Denoiser, Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method, MethodCard, Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting, StageSeconds, StageTimer, Unit, choices, method, parameters,
+    Adaptive, Alternative, Bound, BuildError, Caveat, Choices, Citation, Claim, Claims, Cost, DenoiseError,
+    Denoiser, Diagnostic, Diagnostics, Entry, Factory, Figure, Guarded, Input, Invariance, Kind, Method,
+    MethodCard, Need, NoParams, Output, Param, ParamError, Parameters, Published, Registry, Setting,
+    StageSeconds, StageTimer, Unit, choices, method, parameters,
 };
 pub use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Fidelity, Finding, FindingKind, Flash, Frame, FrameError, Hygiene,

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use noisefloor_study::{SceneSource, Study};
 use noisefloor_io::same_file;
+use noisefloor_study::{SceneSource, Study};
 
 use crate::args::Run;
 use crate::exit::usage;

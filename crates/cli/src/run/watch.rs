@@ -4,8 +4,8 @@ use std::path::Path;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use noisefloor_study::record::{Outcome, Record};
 use noisefloor_harness::{HarnessError, Observer, Stage, Workload};
+use noisefloor_study::record::{Outcome, Record};
 
 use crate::exit::{interrupted, told};
 use crate::interrupt;

@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 
 use noisefloor_frame::{
-    Camera, Counts, Estimate, FeatureId, Flash, Frame, Image, PixelFilter, Provenance, Samples, Sampling,
-    Variance,
+    Camera, Counts, Estimate, FeatureId, Flash, Frame, Image, Integrator, Maps, PixelFilter, Provenance,
+    Rounds, Samples, Sampling, Variance,
 };
 
 /// Every kind of bit pattern: quiet and signalling NaN with payload, infinities, both zeros, subnormals, ordinary.
