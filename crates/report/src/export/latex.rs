@@ -109,7 +109,7 @@ fn command(c: char) -> Option<&'static str> {
         '<' => "$<$",
         '>' => "$>$",
         '|' => "$|$",
-        '"' => "\\textquotedbl{}",
+        '"' => "''",
         '`' => "\\textasciigrave{}",
         '−' => "$-$",
         '±' => "$\\pm$",

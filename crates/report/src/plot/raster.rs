@@ -86,9 +86,12 @@ fn encode(rgb: &[u8], width: u32, height: u32) -> Result<Vec<u8>, png::EncodingE
 
 /// The 256 most frequent colours and each pixel's nearest: plots have few colours, and indices make small files.
 fn palette(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
+    // Plots are runs of equal pixels.
+    let (pixels, _) = rgb.as_chunks::<3>();
+    let runs = || pixels.chunk_by(|a, b| a == b);
     let mut counts: BTreeMap<[u8; 3], usize> = BTreeMap::new();
-    for pixel in rgb.chunks_exact(3) {
-        *counts.entry([pixel[0], pixel[1], pixel[2]]).or_default() += 1;
+    for run in runs() {
+        *counts.entry(run[0]).or_default() += run.len();
     }
     let mut colors: Vec<([u8; 3], usize)> = counts.into_iter().collect();
     colors.sort_by_key(|(color, count)| (Reverse(*count), *color));
@@ -99,7 +102,7 @@ fn palette(rgb: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let nearest =
         |color: &[u8; 3]| (0..chosen.len()).min_by_key(|&i| distance(&chosen[i], color)).unwrap_or(0) as u8;
     let table: BTreeMap<[u8; 3], u8> = colors.iter().map(|(color, _)| (*color, nearest(color))).collect();
-    let indices = rgb.chunks_exact(3).map(|p| table[&[p[0], p[1], p[2]]]).collect();
+    let indices = runs().flat_map(|run| std::iter::repeat_n(table[&run[0]], run.len())).collect();
     (chosen.concat(), indices)
 }
 
