@@ -129,7 +129,7 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     if ratio == 0.0 {
         tell(
             WarningKind::ShortReference,
-            format!("how many samples the reference has is unknown; coverage and bounds may be off"),
+            String::from("how many samples the reference has is unknown; coverage and bounds may be off"),
         );
     } else if ratio < LONG_ENOUGH {
         tell(
