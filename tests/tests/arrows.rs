@@ -32,7 +32,8 @@ fn read(folder: &Path, module: &[String], files: &mut Files) {
 
 /// The text without comments and without what stands behind `#[cfg(test)]`, which is last in every file.
 fn without_tests(text: &str) -> String {
-    let end = text.find("\n#[cfg(test)]\nmod tests {").unwrap_or(text.len());
+    let heads = ["\n#[cfg(test)]\nmod tests {", "\n#[cfg(test)]\npub(crate) mod tests {"];
+    let end = heads.iter().filter_map(|head| text.find(head)).min().unwrap_or(text.len());
     let lines = text[..end].lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.collect::<Vec<_>>().join("\n")
 }

@@ -3,11 +3,8 @@ use std::collections::BTreeMap;
 use noisefloor_frame::Image;
 
 use crate::MetricError;
+use crate::blocks::blocks;
 use crate::measurer::Measurer;
-
-/// Side of the square blocks that are resampled together, in pixels: neighbouring pixels share their error
-/// after denoising.
-pub const BLOCK_SIDE: usize = 32;
 
 /// Standard error of each metric within one image: the spread of the metric over `replicates` images that are
 /// put together from blocks of about 32×32 pixels, drawn with replacement (block bootstrap, Künsch 1989).
@@ -23,8 +20,8 @@ pub fn block_bootstrap(
     replicates: usize,
     seed: u64,
 ) -> Result<BTreeMap<String, f64>, MetricError> {
-    let errors = measurer.pixel_errors(test)?;
-    let blocks = blocks(test.width(), test.height(), |p| errors.valid[p]);
+    let asked = measurer.asked(test)?;
+    let blocks = blocks(test.width(), test.height(), |p| asked.pixels.valid[p]);
     if blocks.len() < 2 {
         return Ok(BTreeMap::new());
     }
@@ -33,7 +30,7 @@ pub fn block_bootstrap(
     for _ in 0..replicates {
         let chosen: Vec<usize> = (0..blocks.len()).map(|_| below(&mut state, blocks.len())).collect();
         let members: Vec<usize> = chosen.iter().flat_map(|&b| blocks[b].iter().copied()).collect();
-        for (metric, value) in errors.over(&members) {
+        for (metric, value) in asked.over(&members) {
             samples.entry(metric.id).or_default().extend(value);
         }
     }
@@ -47,24 +44,6 @@ pub fn block_bootstrap(
         }
     }
     Ok(out)
-}
-
-/// Pixels of each block that pass `keep`; blocks without any are left out. The sides are as near to
-/// [`BLOCK_SIDE`] as an even division of the image allows.
-pub(crate) fn blocks(width: usize, height: usize, keep: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
-    let count = |size: usize| ((size + BLOCK_SIDE / 2) / BLOCK_SIDE).max(1);
-    let (columns, rows) = (count(width), count(height));
-    let mut blocks = vec![Vec::new(); columns * rows];
-    for y in 0..height {
-        for x in 0..width {
-            let block = (y * rows / height) * columns + x * columns / width;
-            if keep(y * width + x) {
-                blocks[block].push(y * width + x);
-            }
-        }
-    }
-    blocks.retain(|block| !block.is_empty());
-    blocks
 }
 
 /// A number below `limit` from the SplitMix64 sequence (Steele, Lea, Flood 2014); `limit` is far below 2³²,

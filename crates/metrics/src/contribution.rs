@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 
 /// What the noise of the reference does to one value of a metric, beside its standard error.
@@ -50,6 +52,9 @@ impl Contribution {
         (!self.parts.is_empty()).then(|| (sum - least).max(least))
     }
 }
+
+/// Metric id to contribution.
+pub(crate) type Contributions = BTreeMap<String, Contribution>;
 
 #[cfg(test)]
 mod tests {

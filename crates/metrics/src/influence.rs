@@ -11,20 +11,19 @@
 
 use std::collections::BTreeMap;
 
-use crate::bootstrap::blocks;
-use crate::contribution::Contribution;
-use crate::measurer::Measurer;
-use crate::pixels::Pixels;
-use crate::relative_bias::{weight, weight_slope};
 use noisefloor_frame::{Image, SquaredError};
+
+use crate::blocks::blocks;
+use crate::contribution::{Contribution, Contributions};
+use crate::pixels::Pixels;
+use crate::reference_noise::ReferenceNoise;
+use crate::truth::{Truth, halves_term};
+use crate::weight::weight;
 
 /// Groups of blocks of a reference without parts.
 const GROUPS: usize = 16;
 /// Fewer blocks say too little about a spread.
 const FEWEST_BLOCKS: usize = 4;
-
-/// Metric id to contribution.
-pub(crate) type Contributions = BTreeMap<String, Contribution>;
 
 /// Sums over the pixels of a class, kept by the trimmed mean or not.
 #[derive(Debug, Clone, Default)]
@@ -64,19 +63,19 @@ impl Sums {
 
 /// Contributions over all pixels, and per class that has pixels. `kept` says which pixels the trimmed mean keeps.
 pub(crate) fn contributions(
-    measurer: &Measurer<'_>,
+    (truth, noise): (&Truth<'_>, &ReferenceNoise),
     test: &Image,
     errors: &Pixels<'_>,
     kept: &[bool],
 ) -> (Contributions, BTreeMap<String, Contributions>) {
-    if matches!(measurer.squared_error(), SquaredError::Exact | SquaredError::Uncorrected) {
+    if matches!(truth.squared_error(), SquaredError::Exact | SquaredError::Uncorrected) {
         return Default::default();
     }
-    let source = Source::new(measurer, errors);
-    let classes = measurer.classes.map_or(&[][..], |classes| classes.names);
+    let source = Source::new((truth, noise), errors);
+    let classes = truth.classes.map_or(&[][..], |classes| classes.names);
     let mut buckets = vec![[Sums::new(source.length()), Sums::new(source.length())]; classes.len().max(1)];
     for p in (0..test.pixels()).filter(|&p| errors.valid[p]) {
-        let class = measurer.classes.map_or(0, |classes| usize::from(classes.of_pixel[p]));
+        let class = truth.classes.map_or(0, |classes| usize::from(classes.of_pixel[p]));
         let sums = &mut buckets[class][usize::from(kept[p])];
         sums.pixels += 1;
         sums.bias += errors.bias[p];
@@ -88,7 +87,6 @@ pub(crate) fn contributions(
     let total = |of: &dyn Fn(&[Sums; 2]) -> Sums| {
         buckets.iter().map(of).fold(Sums::new(source.length()), |sum, part| sum.plus(&part))
     };
-    let noise = &measurer.noise;
     let mut all = source.named(&total(&whole), noise.product);
     if let Some(relative) = source.named(&total(&|[_, kept]| kept.clone()), noise.product).remove("relmse") {
         all.insert("relmse_trimmed".to_owned(), relative);
@@ -104,20 +102,20 @@ pub(crate) fn contributions(
 /// What the influences are taken of.
 enum Source<'m> {
     /// The reference's parts.
-    Parts { measurer: &'m Measurer<'m>, halves: &'m [Image; 2] },
+    Parts { truth: &'m Truth<'m>, noise: &'m ReferenceNoise, halves: &'m [Image; 2] },
     /// The difference of its halves, by the group of each pixel's block.
-    Halves { measurer: &'m Measurer<'m>, halves: &'m [Image; 2], group: Vec<usize>, groups: usize },
+    Halves { truth: &'m Truth<'m>, halves: &'m [Image; 2], group: Vec<usize>, groups: usize },
     /// Nothing: only the bias is known.
     Nothing,
 }
 
 impl<'m> Source<'m> {
-    fn new(measurer: &'m Measurer<'m>, errors: &Pixels<'_>) -> Self {
-        let Some(halves) = &measurer.reference.frame.color.halves else { return Self::Nothing };
-        if measurer.parts_in_a().is_some() {
-            return Self::Parts { measurer, halves };
+    fn new((truth, noise): (&'m Truth<'m>, &'m ReferenceNoise), errors: &Pixels<'_>) -> Self {
+        let Some(halves) = &truth.reference.frame.color.halves else { return Self::Nothing };
+        if truth.parts_in_a().is_some() {
+            return Self::Parts { truth, noise, halves };
         }
-        let blocks = blocks(measurer.mean.width(), measurer.mean.height(), |p| errors.valid[p]);
+        let blocks = blocks(truth.mean.width(), truth.mean.height(), |p| errors.valid[p]);
         if blocks.len() < FEWEST_BLOCKS {
             return Self::Nothing;
         }
@@ -126,12 +124,12 @@ impl<'m> Source<'m> {
         for (index, block) in blocks.iter().enumerate() {
             block.iter().for_each(|&p| group[p] = index % groups);
         }
-        Self::Halves { measurer, halves, group, groups }
+        Self::Halves { truth, halves, group, groups }
     }
 
     fn length(&self) -> usize {
         match self {
-            Self::Parts { measurer, .. } => measurer.noise.centred.iter().map(Vec::len).sum(),
+            Self::Parts { noise, .. } => noise.centred.iter().map(Vec::len).sum(),
             Self::Halves { groups, .. } => *groups,
             Self::Nothing => 0,
         }
@@ -143,21 +141,21 @@ impl<'m> Source<'m> {
         let value = |image: &Image, i: usize| f64::from(image.data()[i]);
         match self {
             Self::Nothing => {}
-            Self::Halves { measurer, halves: [a, b], group, .. } => {
+            Self::Halves { truth, halves: [a, b], group, .. } => {
                 for i in [p, n + p, 2 * n + p] {
                     let (x, a, b) = (value(test, i), value(a, i), value(b, i));
                     let linear = (x - 0.5 * (a + b)) * (a - b);
                     sums.squared[group[p]] += linear;
-                    sums.relative[group[p]] += halves_term(measurer, i, x, a, b);
+                    sums.relative[group[p]] += halves_term(truth, i, x, a, b);
                     sums.energy[group[p]] += 0.5 * (a - b);
                 }
             }
-            Self::Parts { measurer, halves } => {
-                let centred = &measurer.noise.centred;
+            Self::Parts { truth, noise, halves } => {
+                let centred = &noise.centred;
                 let in_a = centred[0].len();
                 let share = in_a as f64 / (in_a + centred[1].len()) as f64; // both have at least 2
                 for i in [p, n + p, 2 * n + p] {
-                    let (x, r, w) = (value(test, i), value(measurer.mean, i), measurer.weight[i]);
+                    let (x, r, w) = (value(test, i), value(truth.mean, i), truth.weight[i]);
                     let residuals = [x - value(&halves[0], i), x - value(&halves[1], i)];
                     let whole = residuals[0] * residuals[1] * w;
                     for (half, (parts, share)) in centred.iter().zip([share, 1.0 - share]).enumerate() {
@@ -181,8 +179,8 @@ impl<'m> Source<'m> {
         let count = (3 * sums.pixels).max(1) as f64;
         let scaled = |sums: &[f64]| -> Vec<f64> {
             match self {
-                Self::Parts { measurer, .. } => {
-                    let (a, b) = sums.split_at(measurer.noise.centred[0].len());
+                Self::Parts { noise, .. } => {
+                    let (a, b) = sums.split_at(noise.centred[0].len());
                     [a, b].into_iter().flat_map(|half| influences(half, count)).collect()
                 }
                 _ => sums.iter().map(|sum| sum / count).collect(),
@@ -218,12 +216,4 @@ fn influences(sums: &[f64], count: f64) -> impl Iterator<Item = f64> {
     let mean = sums.iter().sum::<f64>() / n;
     let scale = count * (n * (n - 1.0)).sqrt();
     sums.iter().map(move |sum| (sum - mean) / scale)
-}
-
-/// (A−B) times what a shift of both halves against each other does to the relative squared error: it has the spread of
-/// what their noise does.
-pub(crate) fn halves_term(measurer: &Measurer<'_>, i: usize, x: f64, a: f64, b: f64) -> f64 {
-    let r = f64::from(measurer.mean.data()[i]);
-    let linear = (x - 0.5 * (a + b)) * measurer.weight[i];
-    (linear - 0.5 * (x - a) * (x - b) * weight_slope(r)) * (a - b)
 }

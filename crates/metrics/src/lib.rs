@@ -22,13 +22,18 @@
 //! # Ok::<(), noisefloor_metrics::MetricError>(())
 //! ```
 
+mod asked;
+mod blocks;
 mod bootstrap;
+mod constants;
 mod contribution;
 mod error;
 mod flip;
 mod influence;
 mod map;
+mod measured;
 mod measurer;
+mod metric;
 mod pixels;
 mod reference_noise;
 mod relative_bias;
@@ -37,13 +42,19 @@ mod ssim;
 mod table;
 mod tone;
 mod trimmed;
+mod truth;
+mod weight;
 
-pub use bootstrap::{BLOCK_SIDE, block_bootstrap};
+pub use blocks::BLOCK_SIDE;
+pub use bootstrap::block_bootstrap;
+pub use constants::{EPSILON, TRIMMED_SHARE};
 pub use contribution::Contribution;
 pub use error::MetricError;
 pub use map::{ErrorKind, error_map};
-pub use measurer::{Classes, Measured, Measurer, Values};
+pub use measured::{Classes, Measured, Values};
+pub use measurer::Measurer;
+pub use metric::{Better, Metric, Rule};
 pub use pixels::Pixels;
-pub use table::{Better, EPSILON, METRICS, Metric, ON_REQUEST, Rule, TRIMMED_SHARE, add, metric, on_request};
+pub use table::{METRICS, ON_REQUEST, add, metric, on_request};
 pub use tone::{srgb_curve, tone_map};
 pub use trimmed::trimmed_count;

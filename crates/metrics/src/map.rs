@@ -26,23 +26,23 @@ pub enum ErrorKind {
 /// [`MetricError::Shape`] if the shapes differ.
 pub fn error_map(test: &Image, reference: &Reference, kind: ErrorKind) -> Result<Image, MetricError> {
     let measurer = Measurer::new(reference, None)?;
-    let (w, h) = (measurer.mean.width(), measurer.mean.height());
+    let (w, h) = (measurer.truth.mean.width(), measurer.truth.mean.height());
     test.expect_shape("test image", w, h, 3)?;
     let n = w * h;
     Ok(Image::from_fn(w, h, 1, |_, x, y| {
         let sum: f64 = (0..3)
             .map(|c| {
                 let i = c * n + y * w + x;
-                let (value, r) = (f64::from(test.data()[i]), f64::from(measurer.mean.data()[i]));
+                let (value, r) = (f64::from(test.data()[i]), f64::from(measurer.truth.mean.data()[i]));
                 let e = value - r;
                 let scale = r.max(0.0).powi(2) + EPSILON; // positive
                 match kind {
                     ErrorKind::Signed => e,
                     ErrorKind::Absolute => e.abs(),
                     ErrorKind::Relative => e.abs() / scale.sqrt(),
-                    ErrorKind::Squared => measurer.numerator(i, value, e),
+                    ErrorKind::Squared => measurer.truth.numerator(i, value, e),
                     ErrorKind::RelativeSquared => {
-                        measurer.numerator(i, value, e) / scale - measurer.bias.at(i, e)
+                        measurer.truth.numerator(i, value, e) / scale - measurer.bias.at(i, e)
                     }
                 }
             })

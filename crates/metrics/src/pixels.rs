@@ -1,14 +1,13 @@
+//! An image beside its reference, pixel by pixel.
+
 use noisefloor_frame::Image;
 
-use crate::MetricError;
-use crate::measurer::Measurer;
-use crate::table::{Metric, Rule};
+use crate::constants::LUMA;
+use crate::relative_bias::RelativeBias;
 use crate::tone::tone;
+use crate::truth::Truth;
 
-/// Weights of Rec. 709 luma.
-pub(crate) const LUMA: [f64; 3] = [0.2126, 0.7152, 0.0722];
-
-/// An image beside its reference, as a metric's [`Rule`] sees them.
+/// An image beside its reference, as a metric's [rule](crate::Rule) sees them.
 pub struct Pixels<'a> {
     pub(crate) test: &'a Image,
     pub(crate) reference: &'a Image,
@@ -36,10 +35,6 @@ pub struct Pixels<'a> {
     pub(crate) non_finite_values: usize,
     /// Whether `relative` and `relative_plain` differ at all.
     pub(crate) corrected: bool,
-    /// What is measured.
-    metrics: &'a [&'static Metric],
-    /// The maps of those whose rule is [`Rule::Map`].
-    maps: Vec<Option<Vec<f64>>>,
 }
 
 impl std::fmt::Debug for Pixels<'_> {
@@ -50,15 +45,15 @@ impl std::fmt::Debug for Pixels<'_> {
 }
 
 impl<'a> Pixels<'a> {
-    pub(crate) fn new(measurer: &'a Measurer<'_>, test: &'a Image) -> Result<Self, MetricError> {
+    pub(crate) fn new(truth: &'a Truth<'_>, bias: &RelativeBias, test: &'a Image) -> Self {
         let n = test.pixels();
-        let mut valid = measurer.valid.clone();
+        let mut valid = truth.valid.clone();
         for plane in test.planes() {
             valid.iter_mut().zip(plane).for_each(|(flag, value)| *flag &= value.is_finite());
         }
         let mut pixels = Self {
             test,
-            reference: measurer.mean,
+            reference: truth.mean,
             squared: vec![0.0; n],
             relative: vec![0.0; n],
             bias: vec![0.0; n],
@@ -67,26 +62,24 @@ impl<'a> Pixels<'a> {
             value: vec![0.0; n],
             truth: vec![0.0; n],
             luma: vec![0.0; n],
-            reference_luma: &measurer.luma,
-            corrected: measurer.bias.is_known(),
+            reference_luma: &truth.luma,
+            corrected: bias.is_known(),
             non_finite_values: test.count_non_finite(),
             valid,
-            metrics: measurer.metrics(),
-            maps: Vec::new(),
         };
         for (c, plane) in test.planes().enumerate() {
-            let mean = measurer.mean.plane(c);
-            let (weight, toned) = (&measurer.weight[c * n..], &measurer.toned[c * n..]);
+            let mean = truth.mean.plane(c);
+            let (weight, toned) = (&truth.weight[c * n..], &truth.toned[c * n..]);
             for p in (0..n).filter(|&p| pixels.valid[p]) {
                 let x = f64::from(plane[p]);
                 let e = x - f64::from(mean[p]);
                 pixels.value[p] += x / 3.0;
                 pixels.truth[p] += f64::from(mean[p]) / 3.0;
-                let squared = measurer.numerator(c * n + p, x, e);
+                let squared = truth.numerator(c * n + p, x, e);
                 pixels.squared[p] += squared / 3.0;
-                let bias = measurer.bias.at(c * n + p, e);
-                pixels.bias[p] += bias / 3.0;
-                pixels.relative[p] += (squared * weight[p] - bias) / 3.0;
+                let off = bias.at(c * n + p, e);
+                pixels.bias[p] += off / 3.0;
+                pixels.relative[p] += (squared * weight[p] - off) / 3.0;
                 pixels.relative_plain[p] += e * e * weight[p] / 3.0;
                 let t = tone(plane[p]);
                 let d = t - toned[p];
@@ -94,8 +87,7 @@ impl<'a> Pixels<'a> {
                 pixels.luma[p] += LUMA[c] * t;
             }
         }
-        pixels.maps = pixels.metrics.iter().map(|metric| pixels.map_of(metric)).collect::<Result<_, _>>()?;
-        Ok(pixels)
+        pixels
     }
 
     /// The image that is measured, three planes.
@@ -114,31 +106,6 @@ impl<'a> Pixels<'a> {
     #[must_use]
     pub fn take_part(&self) -> &[bool] {
         &self.valid
-    }
-
-    fn map_of(&self, metric: &Metric) -> Result<Option<Vec<f64>>, MetricError> {
-        // Where no pixel takes part there is nothing to map.
-        let (Rule::Map(map), true) = (metric.rule, self.valid.contains(&true)) else { return Ok(None) };
-        let map = map(self)?;
-        match map.as_ref().map(Vec::len) {
-            Some(got) if got != self.valid.len() => {
-                Err(MetricError::Map { id: metric.id, pixels: self.valid.len(), got })
-            }
-            _ => Ok(map),
-        }
-    }
-
-    /// What is measured, each with its number over some pixels; those have to take part, and may be there several times.
-    pub(crate) fn over(&self, members: &[usize]) -> impl Iterator<Item = (&'static Metric, Option<f64>)> {
-        self.metrics.iter().zip(&self.maps).map(move |(&metric, map)| {
-            let value = match (metric.rule, map) {
-                _ if members.is_empty() => None,
-                (Rule::Over(number), _) => number(self, members),
-                (Rule::Map(_), Some(map)) => Some(mean(map, members)),
-                (Rule::Map(_), None) => None,
-            };
-            (metric, value.filter(|value| value.is_finite()))
-        })
     }
 }
 

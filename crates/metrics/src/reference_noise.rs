@@ -22,11 +22,11 @@ use std::collections::BTreeMap;
 
 use noisefloor_frame::{Image, SquaredError};
 
-use crate::bootstrap::blocks;
-use crate::contribution::Contribution;
-use crate::influence::{Contributions, halves_term};
-use crate::measurer::{Measurer, Values};
+use crate::blocks::blocks;
+use crate::contribution::{Contribution, Contributions};
+use crate::measured::Values;
 use crate::pixels::Pixels;
+use crate::truth::{Truth, halves_term};
 
 /// Parts of the reference relative to the mean of their half, and the weighted variance of the product term.
 #[derive(Debug, Default)]
@@ -40,29 +40,29 @@ pub(crate) struct ReferenceNoise {
 }
 
 impl ReferenceNoise {
-    pub(crate) fn new(measurer: &Measurer<'_>) -> Self {
-        let parts = &measurer.reference.parts;
-        let Some([a, b]) = &measurer.reference.frame.color.halves else { return Self::default() };
-        let Some(in_a) = measurer.parts_in_a() else { return Self::default() };
+    pub(crate) fn new(truth: &Truth<'_>) -> Self {
+        let parts = &truth.reference.parts;
+        let Some([a, b]) = &truth.reference.frame.color.halves else { return Self::default() };
+        let Some(in_a) = truth.parts_in_a() else { return Self::default() };
         let centre = |parts: &[Image], half: &Image| -> Vec<Vec<f32>> {
             let differences = |part: &Image| {
-                let valid = measurer.valid.iter().cycle();
+                let valid = truth.valid.iter().cycle();
                 let pairs = part.data().iter().zip(half.data()).zip(valid);
                 pairs.map(|((p, h), &ok)| if ok { p - h } else { 0.0 }).collect()
             };
             parts.iter().map(differences).collect()
         };
         let centred = [centre(&parts[..in_a], a), centre(&parts[in_a..], b)];
-        let used = count(&measurer.valid);
+        let used = count(&truth.valid);
         let mut product = [0.0; 2];
-        let mut classes = ClassProducts::new(measurer);
+        let mut classes = ClassProducts::new(truth);
         for left in &centred[0] {
             for right in &centred[1] {
                 let values: Vec<f64> =
                     left.iter().zip(right).map(|(&l, &r)| f64::from(l) * f64::from(r)).collect();
                 product[0] += (values.iter().sum::<f64>() / used).powi(2);
-                product[1] += (dot(&values, &measurer.weight) / used).powi(2);
-                classes.add(measurer, &values);
+                product[1] += (dot(&values, &truth.weight) / used).powi(2);
+                classes.add(truth, &values);
             }
         }
         let (na, nb) = (centred[0].len() as f64, centred[1].len() as f64);
@@ -76,7 +76,7 @@ impl ReferenceNoise {
     /// Metric id to standard error from the reference, for a test image whose `mse` is known.
     pub(crate) fn standard_errors(
         &self,
-        measurer: &Measurer<'_>,
+        truth: &Truth<'_>,
         test: &Image,
         errors: &Pixels<'_>,
         values: &Values,
@@ -85,17 +85,17 @@ impl ReferenceNoise {
         let valid = errors.valid.as_slice();
         let mse = values["mse"].unwrap_or(0.0);
         let variance_of = |id: &str| contributions.get(id).and_then(Contribution::variance).unwrap_or(0.0);
-        let variances = match measurer.squared_error() {
+        let variances = match truth.squared_error() {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
             SquaredError::Halves if !self.centred[0].is_empty() => ["mse", "relmse"].map(variance_of),
-            SquaredError::Halves => from_halves(measurer, test, valid),
-            SquaredError::SubtractVariance => from_variance(measurer, test, valid),
+            SquaredError::Halves => from_halves(truth, test, valid),
+            SquaredError::SubtractVariance => from_variance(truth, test, valid),
         };
         let mut out = named(variances.map(f64::sqrt), mse);
         if let Some(energy) = values["energy"] {
-            let variance = match measurer.squared_error() {
+            let variance = match truth.squared_error() {
                 SquaredError::Halves if !self.centred[0].is_empty() => variance_of("energy"),
-                _ => (energy / mean_of_valid(&errors.truth, valid)).powi(2) * mean_variance(measurer, valid),
+                _ => (energy / mean_of_valid(&errors.truth, valid)).powi(2) * mean_variance(truth, valid),
             };
             out.insert("energy".to_owned(), variance.sqrt());
         }
@@ -105,12 +105,12 @@ impl ReferenceNoise {
     }
 
     /// The same for an image that equals the truth.
-    pub(crate) fn floor(&self, measurer: &Measurer<'_>) -> BTreeMap<String, f64> {
-        let variances = match measurer.squared_error() {
+    pub(crate) fn floor(&self, truth: &Truth<'_>) -> BTreeMap<String, f64> {
+        let variances = match truth.squared_error() {
             SquaredError::Exact | SquaredError::Uncorrected => return BTreeMap::new(),
             SquaredError::Halves if !self.centred[0].is_empty() => self.product,
-            SquaredError::Halves => product_from_halves(measurer),
-            SquaredError::SubtractVariance => product_from_variance(measurer, &measurer.valid),
+            SquaredError::Halves => product_from_halves(truth),
+            SquaredError::SubtractVariance => product_from_variance(truth, &truth.valid),
         };
         named(variances.map(f64::sqrt), 0.0)
     }
@@ -124,21 +124,20 @@ struct ClassProducts {
 }
 
 impl ClassProducts {
-    fn new(measurer: &Measurer<'_>) -> Self {
-        let names = measurer.classes.map_or(0, |classes| classes.names.len());
+    fn new(truth: &Truth<'_>) -> Self {
+        let names = truth.classes.map_or(0, |classes| classes.names.len());
         let mut counts = vec![0.0; names];
-        if let Some(classes) = &measurer.classes {
-            let valid = measurer.valid.iter().zip(classes.of_pixel).filter(|(ok, _)| **ok);
+        if let Some(classes) = &truth.classes {
+            let valid = truth.valid.iter().zip(classes.of_pixel).filter(|(ok, _)| **ok);
             valid.for_each(|(_, &class)| counts[usize::from(class)] += 3.0);
         }
         Self { counts, sums: vec![[0.0; 2]; names] }
     }
 
-    fn add(&mut self, measurer: &Measurer<'_>, values: &[f64]) {
-        let Some(classes) = &measurer.classes else { return };
+    fn add(&mut self, truth: &Truth<'_>, values: &[f64]) {
+        let Some(classes) = &truth.classes else { return };
         let mut means = vec![[0.0; 2]; self.sums.len()];
-        for ((&value, w), &class) in values.iter().zip(&measurer.weight).zip(classes.of_pixel.iter().cycle())
-        {
+        for ((&value, w), &class) in values.iter().zip(&truth.weight).zip(classes.of_pixel.iter().cycle()) {
             let mean = &mut means[usize::from(class)];
             (mean[0], mean[1]) = (mean[0] + value, mean[1] + value * w);
         }
@@ -160,15 +159,16 @@ fn mean_of_valid(values: &[f64], valid: &[bool]) -> f64 {
 }
 
 /// Variance of the reference's mean over all pixels and channels: from block sums of (A−B)/2, or from its variance.
-fn mean_variance(measurer: &Measurer<'_>, valid: &[bool]) -> f64 {
-    let color = &measurer.reference.frame.color;
-    match (measurer.squared_error(), &color.halves, &color.variance) {
-        (SquaredError::Halves, Some([a, b]), _) => block_variance(measurer, valid, |i| {
-            [0.5 * (f64::from(a.data()[i]) - f64::from(b.data()[i])), 0.0]
-        })[0],
+fn mean_variance(truth: &Truth<'_>, valid: &[bool]) -> f64 {
+    let color = &truth.reference.frame.color;
+    match (truth.squared_error(), &color.halves, &color.variance) {
+        (SquaredError::Halves, Some([a, b]), _) => {
+            block_variance(truth, valid, |i| [0.5 * (f64::from(a.data()[i]) - f64::from(b.data()[i])), 0.0])
+                [0]
+        }
         (SquaredError::SubtractVariance, _, Some(variance)) => {
             let variance = variance.mean_variance().data();
-            pixel_variance(measurer, valid, |i| f64::from(variance[i]).max(0.0))[0]
+            pixel_variance(truth, valid, |i| f64::from(variance[i]).max(0.0))[0]
         }
         _ => 0.0,
     }
@@ -198,42 +198,40 @@ fn dot<T: Copy + Into<f64>>(a: &[f64], b: &[T]) -> f64 {
 }
 
 /// Block sums of (x−(A+B)/2)(A−B), squared and added, over the squared count; and of the relative error's term.
-fn from_halves(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
-    let Some([a, b]) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
-    block_variance(measurer, valid, |i| {
+fn from_halves(truth: &Truth<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
+    let Some([a, b]) = &truth.reference.frame.color.halves else { return [0.0; 2] };
+    block_variance(truth, valid, |i| {
         let (x, a, b) = (f64::from(test.data()[i]), f64::from(a.data()[i]), f64::from(b.data()[i]));
-        [(x - 0.5 * (a + b)) * (a - b), halves_term(measurer, i, x, a, b)]
+        [(x - 0.5 * (a + b)) * (a - b), halves_term(truth, i, x, a, b)]
     })
 }
 
 /// For a perfect image only αβ is left, of variance σ⁴, where E(A−B)⁴ = 12σ⁴ for normal noise of equal
 /// halves.
-fn product_from_halves(measurer: &Measurer<'_>) -> [f64; 2] {
-    let Some([a, b]) = &measurer.reference.frame.color.halves else { return [0.0; 2] };
-    pixel_variance(measurer, &measurer.valid, |i| {
-        (f64::from(a.data()[i]) - f64::from(b.data()[i])).powi(4) / 12.0
-    })
+fn product_from_halves(truth: &Truth<'_>) -> [f64; 2] {
+    let Some([a, b]) = &truth.reference.frame.color.halves else { return [0.0; 2] };
+    pixel_variance(truth, &truth.valid, |i| (f64::from(a.data()[i]) - f64::from(b.data()[i])).powi(4) / 12.0)
 }
 
 /// Sum over pixels and channels of a variance per value, three times because the channels of a pixel may err
 /// alike, over the squared count; for both weights.
-fn pixel_variance(measurer: &Measurer<'_>, valid: &[bool], variance: impl Fn(usize) -> f64) -> [f64; 2] {
+fn pixel_variance(truth: &Truth<'_>, valid: &[bool], variance: impl Fn(usize) -> f64) -> [f64; 2] {
     let n = valid.len();
     let mut sums = [0.0; 2];
     for p in (0..n).filter(|&p| valid[p]) {
         for i in [p, n + p, 2 * n + p] {
             let value = 3.0 * variance(i);
             sums[0] += value;
-            sums[1] += value * measurer.weight[i].powi(2);
+            sums[1] += value * truth.weight[i].powi(2);
         }
     }
     sums.map(|sum| sum / count(valid).powi(2))
 }
 
-fn block_variance(measurer: &Measurer<'_>, valid: &[bool], terms: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
+fn block_variance(truth: &Truth<'_>, valid: &[bool], terms: impl Fn(usize) -> [f64; 2]) -> [f64; 2] {
     let n = valid.len();
     let mut sums = [0.0; 2];
-    for block in blocks(measurer.mean.width(), measurer.mean.height(), |p| valid[p]) {
+    for block in blocks(truth.mean.width(), truth.mean.height(), |p| valid[p]) {
         let mut totals = [0.0; 2];
         for i in block.iter().flat_map(|p| [*p, n + p, 2 * n + p]) {
             totals.iter_mut().zip(terms(i)).for_each(|(total, term)| *total += term);
@@ -244,20 +242,20 @@ fn block_variance(measurer: &Measurer<'_>, valid: &[bool], terms: impl Fn(usize)
 }
 
 /// 4(x−r)²v − 2v² summed over the image, and at least the 2v² that stays for a perfect image.
-fn from_variance(measurer: &Measurer<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
-    let Some(variance) = &measurer.reference.frame.color.variance else { return [0.0; 2] };
+fn from_variance(truth: &Truth<'_>, test: &Image, valid: &[bool]) -> [f64; 2] {
+    let Some(variance) = &truth.reference.frame.color.variance else { return [0.0; 2] };
     let variance = variance.mean_variance().data();
-    let estimate = pixel_variance(measurer, valid, |i| {
+    let estimate = pixel_variance(truth, valid, |i| {
         let v = f64::from(variance[i]).max(0.0);
-        let e = f64::from(test.data()[i]) - f64::from(measurer.mean.data()[i]);
+        let e = f64::from(test.data()[i]) - f64::from(truth.mean.data()[i]);
         4.0 * e * e * v - 2.0 * v * v
     });
-    let least = product_from_variance(measurer, valid);
+    let least = product_from_variance(truth, valid);
     [0, 1].map(|k| estimate[k].max(least[k]))
 }
 
-fn product_from_variance(measurer: &Measurer<'_>, valid: &[bool]) -> [f64; 2] {
-    let Some(variance) = &measurer.reference.frame.color.variance else { return [0.0; 2] };
+fn product_from_variance(truth: &Truth<'_>, valid: &[bool]) -> [f64; 2] {
+    let Some(variance) = &truth.reference.frame.color.variance else { return [0.0; 2] };
     let variance = variance.mean_variance().data();
-    pixel_variance(measurer, valid, |i| 2.0 * f64::from(variance[i]).powi(2))
+    pixel_variance(truth, valid, |i| 2.0 * f64::from(variance[i]).powi(2))
 }

@@ -18,23 +18,8 @@
 
 use noisefloor_frame::{Sampling, SquaredError, Variance};
 
-use crate::EPSILON;
-use crate::measurer::Measurer;
-
-/// 1/(max(r,0)²+ε).
-pub(crate) fn weight(r: f64) -> f64 {
-    1.0 / (r.max(0.0).powi(2) + EPSILON) // ε > 0
-}
-
-/// Its first derivative.
-pub(crate) fn weight_slope(r: f64) -> f64 {
-    -2.0 * r.max(0.0) * weight(r).powi(2)
-}
-
-/// Its second derivative; that from above at 0, where it jumps, counts as 0 there.
-fn weight_curvature(r: f64) -> f64 {
-    if r > 0.0 { (6.0 * r * r - 2.0 * EPSILON) * weight(r).powi(3) } else { 0.0 }
-}
+use crate::truth::Truth;
+use crate::weight::{weight, weight_curvature, weight_slope};
 
 /// Coefficients of the estimated bias, for all planes; empty where there is nothing to correct with.
 #[derive(Debug, Default)]
@@ -43,11 +28,11 @@ pub(crate) struct RelativeBias {
 }
 
 impl RelativeBias {
-    pub(crate) fn new(measurer: &Measurer<'_>) -> Self {
-        let coefficients = match measurer.squared_error() {
+    pub(crate) fn new(truth: &Truth<'_>) -> Self {
+        let coefficients = match truth.squared_error() {
             SquaredError::Exact | SquaredError::Uncorrected => None,
-            SquaredError::Halves if measurer.parts_in_a().is_some() => jackknife(measurer),
-            SquaredError::Halves | SquaredError::SubtractVariance => delta(measurer),
+            SquaredError::Halves if truth.parts_in_a().is_some() => jackknife(truth),
+            SquaredError::Halves | SquaredError::SubtractVariance => delta(truth),
         };
         Self { coefficients: coefficients.unwrap_or_default() }
     }
@@ -69,17 +54,17 @@ fn product(factor: f64, a: f64, b: f64) -> [f64; 3] {
     [factor * a * b, -factor * (a + b), factor]
 }
 
-fn jackknife(measurer: &Measurer<'_>) -> Option<Vec<[f64; 3]>> {
-    let [a, b] = measurer.reference.frame.color.halves.as_ref()?;
-    let (parts, in_a) = (&measurer.reference.parts, measurer.parts_in_a()?);
+fn jackknife(truth: &Truth<'_>) -> Option<Vec<[f64; 3]>> {
+    let [a, b] = truth.reference.frame.color.halves.as_ref()?;
+    let (parts, in_a) = (&truth.reference.parts, truth.parts_in_a()?);
     let share = in_a as f64 / parts.len() as f64; // at least 4 parts
     let of = |i: usize| {
-        let (r, valid) = (f64::from(measurer.mean.data()[i]), measurer.valid[i % measurer.valid.len()]);
+        let (r, valid) = (f64::from(truth.mean.data()[i]), truth.valid[i % truth.valid.len()]);
         if !valid {
             return [0.0; 3];
         }
         let (half_a, half_b) = (f64::from(a.data()[i]), f64::from(b.data()[i]));
-        let whole = product(measurer.weight[i], half_a - r, half_b - r);
+        let whole = product(truth.weight[i], half_a - r, half_b - r);
         let mut sum = [0.0; 3];
         for (k, part) in parts.iter().enumerate() {
             let of_a = k < in_a;
@@ -98,11 +83,11 @@ fn jackknife(measurer: &Measurer<'_>) -> Option<Vec<[f64; 3]>> {
         }
         sum
     };
-    Some((0..measurer.mean.data().len()).map(of).collect())
+    Some((0..truth.mean.data().len()).map(of).collect())
 }
 
-fn delta(measurer: &Measurer<'_>) -> Option<Vec<[f64; 3]>> {
-    let frame = &measurer.reference.frame;
+fn delta(truth: &Truth<'_>) -> Option<Vec<[f64; 3]>> {
+    let frame = &truth.reference.frame;
     let color = &frame.color;
     let from_halves = || Variance::from_halves(color.halves.as_ref()?, &frame.samples).ok();
     // Of low-discrepancy samples s²/n is not the variance of the mean.
@@ -111,8 +96,8 @@ fn delta(measurer: &Measurer<'_>) -> Option<Vec<[f64; 3]>> {
         Sampling::LowDiscrepancy => from_halves().or_else(|| color.variance.clone()),
     }?;
     let of = |i: usize| {
-        let (r, v) = (f64::from(measurer.mean.data()[i]), f64::from(variance.mean_variance().data()[i]));
-        if !measurer.valid[i % measurer.valid.len()] || !v.is_finite() {
+        let (r, v) = (f64::from(truth.mean.data()[i]), f64::from(variance.mean_variance().data()[i]));
+        if !truth.valid[i % truth.valid.len()] || !v.is_finite() {
             return [0.0; 3];
         }
         let v = v.max(0.0);
@@ -125,7 +110,7 @@ fn delta(measurer: &Measurer<'_>) -> Option<Vec<[f64; 3]>> {
         out[1] -= 2.0 * v * weight_slope(r);
         out
     };
-    Some((0..measurer.mean.data().len()).map(of).collect())
+    Some((0..truth.mean.data().len()).map(of).collect())
 }
 
 #[cfg(test)]

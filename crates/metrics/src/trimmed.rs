@@ -1,4 +1,4 @@
-use crate::TRIMMED_SHARE;
+use crate::constants::TRIMMED_SHARE;
 
 /// How many of so many pixels a trimmed metric drops: the largest ⌈0.1 %⌉.
 #[must_use]

@@ -10,7 +10,7 @@ mod unique;
 use noisefloor_study::exhibit::{Answer, Chart, Document, Exhibit, Front};
 use noisefloor_study::summary::Summary;
 
-use crate::question::QUESTIONS;
+use crate::list::QUESTIONS;
 use crate::view::View;
 use crate::{convergence, error};
 

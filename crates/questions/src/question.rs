@@ -1,4 +1,4 @@
-//! What a question is, and the list of all.
+//! What a question is.
 
 use noisefloor_study::exhibit::{Answer, Exhibit};
 use noisefloor_study::record::Record;
@@ -26,7 +26,7 @@ pub trait Question: Sync {
         Ok(())
     }
 
-    /// Analyses all records, into the summary; what comes before it in [`QUESTIONS`] is there already.
+    /// Analyses all records, into the summary; what comes before it in [`QUESTIONS`](crate::QUESTIONS) is there already.
     fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
         let _ = (records, summary);
     }
@@ -48,28 +48,4 @@ pub trait Question: Sync {
     fn readme(&self) -> &'static [Kind] {
         &[]
     }
-}
-
-/// All questions, in the order in which they are measured, analysed and shown.
-pub const QUESTIONS: &[&dyn Question] = &[
-    &crate::paper::Paper,
-    &crate::error::Error,
-    &crate::comparison::Comparison,
-    &crate::convergence::Convergence,
-    &crate::cost::Cost,
-    &crate::coverage::Coverage,
-    &crate::bounds::Bounds,
-    &crate::own_error::OwnError,
-    &crate::growth::Growth,
-    &crate::equal_time::EqualTime,
-    &crate::flicker::Flicker,
-    &crate::breakage::Breakage,
-];
-
-/// Puts every question to a finished cell.
-///
-/// # Errors
-/// Of the first question that cannot be measured.
-pub fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
-    QUESTIONS.iter().try_for_each(|question| question.measure(cell, record))
 }

@@ -18,56 +18,21 @@
 //! `show` is `value`, `ratio` (to plain Monte Carlo) or `multiplier` (samples for an equal error); lists are split at `;`.
 //! Every kind but `answers` and `machine` belongs to a question.
 
+mod asked;
 mod chosen;
 mod common;
+mod kind;
 
-use std::collections::BTreeMap;
-
-use noisefloor_study::exhibit::{Cell, Column, Table, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::Summary;
 
+pub use asked::{Asked, Block};
 pub(crate) use chosen::{Chosen, Show};
+pub use kind::Kind;
+pub(crate) use kind::{code, headed, headed_by, lines, plain, push};
 
-use crate::question::QUESTIONS;
+use crate::list::QUESTIONS;
 use crate::view::View;
-
-/// What a README asks for.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Asked {
-    /// Kind of table, such as `levels`.
-    pub kind: String,
-    /// What is chosen of the study.
-    pub keys: BTreeMap<String, String>,
-}
-
-impl Asked {
-    /// The value of a key, split at `;` and trimmed; empty without the key.
-    #[must_use]
-    pub fn list(&self, key: &str) -> Vec<&str> {
-        self.keys.get(key).map_or_else(Vec::new, |text| text.split(';').map(str::trim).collect())
-    }
-}
-
-/// A piece of a README; texts, also those of cells, are Markdown.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Block {
-    /// A paragraph or a list.
-    Text(String),
-    /// A table.
-    Table(Table),
-}
-
-/// A kind of table.
-#[derive(Debug)]
-pub struct Kind {
-    /// Name.
-    pub name: &'static str,
-    /// Keys that it obeys.
-    pub keys: &'static [&'static str],
-    /// What makes it.
-    pub(crate) make: fn(&Chosen<'_>) -> Vec<Block>,
-}
 
 /// Makes what a README asks for, in order.
 ///
@@ -84,37 +49,4 @@ pub fn readme_table(summary: &Summary, asked: &Asked) -> Result<Vec<Block>, Stri
         return Err(format!("`{}` has no key `{key}`; it has {has}", asked.kind));
     }
     Ok((kind.make)(&Chosen::new(&view, asked)?))
-}
-
-/// A list, or nothing where it would be empty.
-pub(crate) fn lines(lines: Vec<String>) -> Vec<Block> {
-    if lines.is_empty() { Vec::new() } else { vec![Block::Text(lines.join("\n"))] }
-}
-
-/// A table without rows, with these heads.
-pub(crate) fn headed(id: String, heads: impl IntoIterator<Item = String>) -> Table {
-    let column = |(k, head)| if k == 0 { Column::text(head) } else { Column::number(head) };
-    Table { id, columns: heads.into_iter().enumerate().map(column).collect(), ..Table::default() }
-}
-
-/// The same from plain words.
-pub(crate) fn headed_by(id: &str, heads: &[&str]) -> Table {
-    headed(id.to_owned(), heads.iter().map(|head| (*head).to_owned()))
-}
-
-/// Adds a row.
-pub(crate) fn push(table: &mut Table, cells: Vec<Cell>) {
-    table.rows.push(TableRow::new(cells));
-}
-
-/// A cell of a page as one text. A star in Markdown text is one that is not obeyed.
-pub(crate) fn plain(cell: &Cell) -> Cell {
-    let text = format!("{} {}", cell.text, cell.aside);
-    let text = text.trim_end().replace(" *", " \\*");
-    Cell { number: cell.number, ..Cell::text(text) }
-}
-
-/// The name of a row or a parameter.
-pub(crate) fn code(name: &str) -> Cell {
-    Cell::text(format!("`{name}`"))
 }

@@ -6,7 +6,7 @@ use noisefloor_study::summary::{Environment, SUMMARY_SCHEMA, StudyInfo, Summary,
 use noisefloor_study::{Study, metric};
 
 use crate::flicker::{Images, Sequences, flicker};
-use crate::question::QUESTIONS;
+use crate::list::QUESTIONS;
 use crate::records::{Index, scenes};
 
 /// Where the images of a study are.

@@ -8,11 +8,11 @@ use noisefloor_study::FIGURES;
 use noisefloor_study::exhibit::Document;
 
 use crate::error::ReportError;
-use crate::export::free_name;
+use crate::file::write_file;
+use crate::names::free_name;
 use crate::plot::style::Looks;
 use crate::plot::svg::{Drawing, GlyphKey};
 use crate::plot::{Drawn, draw, pdf, png};
-use crate::write::write_file;
 
 /// Which files a chart becomes beside its SVG.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

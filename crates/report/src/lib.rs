@@ -14,7 +14,9 @@
 mod charts;
 mod error;
 mod export;
+mod file;
 mod images;
+mod names;
 mod page;
 mod panel;
 mod picture;

@@ -10,6 +10,7 @@ mod guides;
 mod labels;
 mod legend;
 mod lines;
+pub(crate) mod palette;
 mod raster;
 mod scales;
 pub(crate) mod style;

@@ -6,8 +6,8 @@ use noisefloor_study::exhibit::Document;
 
 use crate::charts::{Charts, Formats, remove_stale_plots};
 use crate::error::ReportError;
+use crate::file::write_file;
 use crate::readme::{Directive, embedded_plots, skeleton, spliced};
-use crate::write::write_file;
 
 /// What was written beside the numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]

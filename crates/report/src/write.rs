@@ -1,6 +1,5 @@
 //! Writes a report: the page, its charts and its tables.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use noisefloor_frame::Image;
@@ -8,8 +7,10 @@ use noisefloor_study::exhibit::Document;
 
 use crate::charts::{Charts, Formats, remove_stale_plots, remove_stale_tables};
 use crate::error::ReportError;
-use crate::export::{TABLE_ENDINGS, export_tables};
+use crate::export::export_tables;
+use crate::file::write_file;
 use crate::images::{Loader, gallery};
+use crate::names::TABLE_ENDINGS;
 use crate::page;
 
 /// How much goes into a report.
@@ -113,12 +114,4 @@ fn write_from(
     write_file(&index, html.as_bytes())?;
     let image_bytes = gallery.bytes();
     Ok(ReportFiles { index, plots, tables, image_bytes, unreadable: gallery.unreadable })
-}
-
-/// Writes a file whole or not at all, and its folder first.
-pub(crate) fn write_file(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).map_err(ReportError::write(folder))?;
-    }
-    Ok(noisefloor_io::write_atomically(path, |out| out.write_all(bytes))?)
 }

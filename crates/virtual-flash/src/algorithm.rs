@@ -19,9 +19,9 @@ use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::flash_filter::PatchWeights;
 
 use crate::Params;
+use crate::card::ID;
 use crate::filter::{self, inputs};
 use crate::guide::Guide;
-use crate::method::ID;
 use crate::params::Step;
 use crate::spread::{Along, tested_variance};
 use crate::tolerance::Tolerance;

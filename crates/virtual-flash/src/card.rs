@@ -7,6 +7,9 @@ use noisefloor_denoiser::{
 use crate::params::Step;
 use crate::{GuideKind, Params, SpreadKind, TestKind};
 
+/// Its id.
+pub(crate) const ID: &str = "virtual-flash";
+
 /// The source work.
 pub const CITATION: Citation = Citation::with_entry(
     "moon2013flash",

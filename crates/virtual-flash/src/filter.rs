@@ -8,8 +8,8 @@ use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::Level;
 use noisefloor_kernels::flash_filter::{self, FlashFilterError, FlashInputs, FlashParams, PatchWeights};
 
+use crate::card::ID;
 use crate::guide::Guide;
-use crate::method::ID;
 use crate::params::Step;
 use crate::spread::Along;
 use crate::tolerance::Tolerance;

@@ -7,15 +7,14 @@ use noisefloor_denoiser::{
 use noisefloor_frame::Image;
 use noisefloor_kernels::flash_filter::{MAX_PIXELS, MAX_SOURCE, PatchWeights};
 
+use crate::Params;
 use crate::algorithm::{self, Done};
+use crate::card::{self, ID};
 use crate::diagnostics::describe_step;
 use crate::filter::{inputs, kernel_error, kernel_params};
 use crate::guide::Guide;
 use crate::params::Step;
 use crate::tolerance::Tolerance;
-use crate::{Params, card};
-
-pub(crate) const ID: &str = "virtual-flash";
 
 /// Factory of [`VirtualFlash`].
 #[must_use]

@@ -151,9 +151,9 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     if fresh {
         tell(
             WarningKind::NoIntervals,
-            format!(
+            String::from(
                 "coverage and bounds are left out (photon maps are new in each replicate, and the variance between a frame's samples does \
-             not know their error)"
+             not know their error)",
             ),
         );
     }
@@ -162,18 +162,18 @@ fn of_scene(index: &Index<'_>, scene: &SceneContext, summary: &Summary, out: &mu
     {
         tell(
             WarningKind::NoIntervals,
-            format!(
+            String::from(
                 "coverage and bounds are left out: the frames state no variance, or sample counts that differ between pixels and so \
-             depend on the data"
+             depend on the data",
             ),
         );
     }
     if scene.replicates.values().all(|&n| n == 1) {
         tell(
             WarningKind::OneReplicate,
-            format!(
+            String::from(
                 "one replicate per level; intervals are from blocks within the image and say nothing about other random seeds, \
-             and rows cannot be told apart"
+             and rows cannot be told apart",
             ),
         );
     }

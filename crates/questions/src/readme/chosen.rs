@@ -1,7 +1,7 @@
 use noisefloor_study::exhibit::Table;
 use noisefloor_study::summary::SceneSummary;
 
-use super::{Asked, Block};
+use super::asked::{Asked, Block};
 use crate::view::View;
 
 /// What a README's keys choose of a study.

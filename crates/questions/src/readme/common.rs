@@ -2,7 +2,9 @@
 
 use noisefloor_study::format;
 
-use super::{Block, Chosen, Kind, lines};
+use super::asked::Block;
+use super::chosen::Chosen;
+use super::kind::{Kind, lines};
 use crate::document::answers;
 
 pub(super) const KINDS: &[Kind] = &[

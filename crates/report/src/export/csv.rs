@@ -2,7 +2,7 @@
 
 use noisefloor_study::exhibit::{Cell, Number, Table};
 
-use super::{one_line, says_nothing};
+use super::text::{one_line, says_nothing};
 
 /// A table by RFC 4180: a head, lines that end in CR LF, quotes where they are needed.
 pub(super) fn csv(table: &Table) -> String {

@@ -2,7 +2,7 @@
 
 use noisefloor_study::exhibit::{Column, Table};
 
-use super::{one_line, shown};
+use super::text::{one_line, shown};
 
 /// Texts of more letters than this take lines of their own width.
 const LONG: usize = 40;

@@ -2,7 +2,7 @@
 
 use noisefloor_study::exhibit::{Cell, Table};
 
-use super::{one_line, shown};
+use super::text::{one_line, shown};
 
 /// A table as Markdown: the first column to the left, the others to the right; rows of the study as code. Caption and
 /// notes are not in it.

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::tables::TableView;
 use crate::charts::{Charts, Formats};
 use crate::error::ReportError;
-use crate::export::table_names;
+use crate::names::table_names;
 use crate::plot::svg::GlyphKey;
 
 /// A section.

@@ -9,9 +9,10 @@ use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingErrorKind, FontStyle, FontTransform,
 };
 
-use super::{Drawing, escape, glyph_id, hex};
+use super::drawing::{Drawing, escape, glyph_id};
 use crate::plot::figure::Color;
 use crate::plot::font::{self, Weight};
+use crate::plot::palette::hex;
 
 fn paint(color: BackendColor) -> String {
     let (r, g, b) = color.rgb;
