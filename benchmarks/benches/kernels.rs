@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use noisefloor_benchmarks::{noise, surfaces};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{
     FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_into, naive,
 };
@@ -82,15 +82,15 @@ fn step(
     source: &[Vec<f32>; 3],
     radius: usize,
     tested: bool,
-    level: Level,
+    level: InstructionSet,
     out: &mut [Vec<f32>; 3],
 ) {
     let [r, g, b] = out;
     filter_into(&frame.params(radius), &frame.inputs(source, tested), level, [r, g, b]).expect("valid input");
 }
 
-fn levels() -> impl Iterator<Item = Level> {
-    Level::ALL.into_iter().rev().filter(|level| level.is_available())
+fn levels() -> impl Iterator<Item = InstructionSet> {
+    InstructionSet::ALL.into_iter().rev().filter(|level| level.is_available())
 }
 
 fn both_steps(criterion: &mut Criterion) {
@@ -100,7 +100,8 @@ fn both_steps(criterion: &mut Criterion) {
     group.sample_size(10).warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(1));
     group.throughput(Throughput::Elements(frame.pixel_offsets(3) + frame.pixel_offsets(15)));
     // Without hardware fused multiply-add in the binary the portable form takes a minute: see the small image.
-    for level in levels().filter(|&level| level != Level::Portable || cfg!(target_arch = "aarch64")) {
+    for level in levels().filter(|&level| level != InstructionSet::Portable || cfg!(target_arch = "aarch64"))
+    {
         for threads in [1, 2] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
             group.bench_function(BenchmarkId::new(level.name(), format!("threads_{threads}")), |bencher| {
@@ -128,8 +129,8 @@ fn against_the_naive_loop(criterion: &mut Criterion) {
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1));
         group.throughput(Throughput::Elements(frame.pixel_offsets(radius)));
-        // One portable figure is enough: on x86-64 it is slow, see `Level::Portable`.
-        for level in levels().filter(|&level| tested || level != Level::Portable) {
+        // One portable figure is enough: on x86-64 it is slow, see `InstructionSet::Portable`.
+        for level in levels().filter(|&level| tested || level != InstructionSet::Portable) {
             group.bench_function(level.name(), |bencher| {
                 pool.install(|| {
                     bencher.iter(|| {

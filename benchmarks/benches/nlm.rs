@@ -7,22 +7,22 @@ use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use noisefloor_benchmarks::{NlmFrame, NlmVariant, nlm_variants};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::nlm::{NlmParams, filter_at, naive};
 
 /// Window radius of rousselle2013rdfc for most scenes.
 const RADIUS: usize = 10;
 
-fn run(frame: &NlmFrame, variant: &NlmVariant, level: Level) {
+fn run(frame: &NlmFrame, variant: &NlmVariant, level: InstructionSet) {
     let params = NlmParams::new(frame.width, frame.height, RADIUS, 0.45);
     let filtered = filter_at(&params, &variant.passes, &frame.inputs(variant.features), level);
     black_box(filtered.expect("valid input"));
 }
 
-fn levels() -> impl Iterator<Item = Level> {
+fn levels() -> impl Iterator<Item = InstructionSet> {
     // Without hardware fused multiply-add in the binary the portable form takes minutes: see the small image.
-    let whole = |level: &Level| *level != Level::Portable || cfg!(target_arch = "aarch64");
-    Level::ALL.into_iter().rev().filter(|level| level.is_available()).filter(whole)
+    let whole = |level: &InstructionSet| *level != InstructionSet::Portable || cfg!(target_arch = "aarch64");
+    InstructionSet::ALL.into_iter().rev().filter(|level| level.is_available()).filter(whole)
 }
 
 fn variants(criterion: &mut Criterion) {
@@ -55,7 +55,7 @@ fn threads(criterion: &mut Criterion) {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
             let id = BenchmarkId::new(variant.name, format!("threads_{threads}"));
             group.bench_function(id, |bencher| {
-                pool.install(|| bencher.iter(|| run(&frame, variant, Level::best())));
+                pool.install(|| bencher.iter(|| run(&frame, variant, InstructionSet::best())));
             });
         }
     }
@@ -77,7 +77,7 @@ fn against_the_naive_loop(criterion: &mut Criterion) {
             .warm_up_time(Duration::from_millis(300))
             .measurement_time(Duration::from_secs(1));
         group.throughput(Throughput::Elements(frame.pixel_offsets(RADIUS)));
-        for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        for level in InstructionSet::ALL.into_iter().filter(|level| level.is_available()) {
             group.bench_function(level.name(), |bencher| {
                 pool.install(|| bencher.iter(|| run(&frame, &variant, level)));
             });

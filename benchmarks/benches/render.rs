@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use noisefloor_frame::Frame;
 use noisefloor_render::{
-    PhotonMaps, PhotonSettings, Prepared, Quantity, Record, RenderRequest, Silent, render,
+    PhotonMaps, PhotonSettings, Prepared, Quantity, Recorded, RenderRequest, Silent, render,
 };
 use noisefloor_scenes::find;
 
@@ -43,7 +43,7 @@ fn path_samples(c: &mut Criterion) {
         let mut group = c.benchmark_group(format!("render/{id}"));
         group.throughput(Throughput::Elements((SIZE * SIZE) as u64 * u64::from(SPP)));
         group.sample_size(10);
-        let records = [("colour", Record::color_only()), ("features and flash", Record::exactly(USUAL))];
+        let records = [("colour", Recorded::color_only()), ("features and flash", Recorded::exactly(USUAL))];
         for (name, record) in &records {
             let request =
                 RenderRequest { record: record.clone(), ..RenderRequest::new(&scene, SIZE, SIZE, SPP) };
@@ -55,7 +55,7 @@ fn path_samples(c: &mut Criterion) {
             }
         }
         let request =
-            RenderRequest { record: Record::color_only(), ..RenderRequest::new(&scene, SIZE, SIZE, SPP) };
+            RenderRequest { record: Recorded::color_only(), ..RenderRequest::new(&scene, SIZE, SIZE, SPP) };
         group.throughput(Throughput::Elements(rays(&frame(&request))));
         group.bench_function("rays, one thread", |b| b.iter(|| one.install(|| frame(&request))));
         group.finish();
@@ -77,7 +77,7 @@ fn photons(c: &mut Criterion) {
     let request = RenderRequest {
         integrator: noisefloor_render::Integrator::PhotonMapping,
         photons: Some(&maps),
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         ..RenderRequest::new(&scene, size, size, SPP)
     };
     group.throughput(Throughput::Elements((size * size) as u64 * u64::from(SPP)));

@@ -5,7 +5,7 @@ use noisefloor_benchmarks::{noise, surfaces};
 use noisefloor_denoiser::{Denoiser, Input, Output};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
 use noisefloor_geometric::{CorrectedParams, GeometricCorrected, Material};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 
 /// Standard error of the mean relative to it.
 const ERROR: f32 = 0.2;
@@ -45,7 +45,7 @@ fn main() {
     let (width, height) = (args.next().unwrap_or(1280), args.next().unwrap_or(960));
     let pool =
         rayon::ThreadPoolBuilder::new().num_threads(args.next().unwrap_or(0)).build().expect("threads start");
-    println!("{width}x{height} pixels, {} threads, {}", pool.current_num_threads(), Level::best());
+    println!("{width}x{height} pixels, {} threads, {}", pool.current_num_threads(), InstructionSet::best());
     let frame = frame(width, height);
     for material in [Material::Ids, Material::Albedo] {
         let params = CorrectedParams { material, pixels_per_error: 20.0, ..CorrectedParams::default() };

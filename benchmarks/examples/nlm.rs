@@ -7,7 +7,7 @@
 use std::time::Instant;
 
 use noisefloor_benchmarks::{NlmFrame, NlmVariant, nlm_variants};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::nlm::{NlmParams, filter_at};
 
 const RADIUS: usize = 10;
@@ -21,18 +21,21 @@ fn main() {
     pool.install(|| {
         let variants = nlm_variants();
         for variant in &variants {
-            for level in [Level::Avx512, Level::Avx2].into_iter().filter(|level| level.is_available()) {
+            for level in [InstructionSet::Avx512, InstructionSet::Avx2]
+                .into_iter()
+                .filter(|level| level.is_available())
+            {
                 let nanoseconds = 1e9 * seconds(&frame, variant, level) / frame.pixel_offsets(RADIUS) as f64;
                 let rate = variant.flop.map_or_else(String::new, |flop| format!("{:.1}", flop / nanoseconds));
                 println!("{:<24}{:>10}{nanoseconds:>16.2}{rate:>10}", variant.name, level.name());
             }
         }
-        let best = seconds(&frame, &variants[1], Level::best());
-        println!("peer {} {best:.6}", Level::best());
+        let best = seconds(&frame, &variants[1], InstructionSet::best());
+        println!("peer {} {best:.6}", InstructionSet::best());
     });
 }
 
-fn seconds(frame: &NlmFrame, variant: &NlmVariant, level: Level) -> f64 {
+fn seconds(frame: &NlmFrame, variant: &NlmVariant, level: InstructionSet) -> f64 {
     let params = NlmParams::new(frame.width, frame.height, RADIUS, 0.45);
     let inputs = frame.inputs(variant.features);
     let run = || {

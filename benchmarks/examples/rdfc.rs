@@ -3,7 +3,7 @@
 
 use noisefloor_benchmarks::method_frame;
 use noisefloor_denoiser::{Denoiser, Input, StageSeconds};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_rdfc::{Params, Rdfc};
 
 fn main() {
@@ -15,7 +15,7 @@ fn main() {
     println!(
         "{size}x{size} pixels, {} threads, {}, window radius {radius}",
         pool.current_num_threads(),
-        Level::best()
+        InstructionSet::best()
     );
     for (name, position) in [("8 feature channels", false), ("10 feature channels", true)] {
         let place = if position { "position" } else { "depth" };

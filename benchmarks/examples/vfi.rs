@@ -3,7 +3,7 @@
 
 use noisefloor_benchmarks::flash_frame;
 use noisefloor_denoiser::{Denoiser, Input, StageSeconds};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_virtual_flash::{Params, SpreadKind, VirtualFlash};
 
 fn main() {
@@ -12,7 +12,7 @@ fn main() {
     let height = args.next().unwrap_or(960);
     let threads = args.next().unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
-    println!("{width}x{height} pixels, {} threads, {}", pool.current_num_threads(), Level::best());
+    println!("{width}x{height} pixels, {} threads, {}", pool.current_num_threads(), InstructionSet::best());
     let frame = flash_frame(width, height);
     for second_spread in [SpreadKind::Least, SpreadKind::Raw] {
         let method = VirtualFlash::new(Params { second_spread, ..Params::default() }).expect("in range");

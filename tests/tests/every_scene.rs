@@ -3,7 +3,7 @@
 use noisefloor::harness::{Silent, StudyRun, run};
 use noisefloor::questions::violations;
 use noisefloor::render::{
-    Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderRequest, Silent as Quiet, render,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Recorded, RenderRequest, Silent as Quiet, render,
 };
 use noisefloor::scenes::builtin;
 use noisefloor::study::{MethodRow, Shot, Study};
@@ -57,7 +57,7 @@ fn every_scene_gives_the_same_bits_on_any_number_of_threads() {
                 let few = PhotonSettings { paths: 5000, caustic_paths: 9000, ..PhotonSettings::default() };
                 let maps = entry.photon_mapped.then(|| PhotonMaps::new(&prepared, &few, 3).unwrap());
                 let mut request = RenderRequest::new(&prepared, 16, 12, 4);
-                request.record = Record::Available;
+                request.record = Recorded::Available;
                 if maps.is_some() {
                     request.integrator = Integrator::PhotonMapping;
                     request.photons = maps.as_ref();

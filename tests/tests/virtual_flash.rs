@@ -1,6 +1,6 @@
 //! What `virtual-flash` holds on rendered scenes with its defaults: nowhere above its input, and no more light lost than is told.
 
-use noisefloor::render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor::render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor::scenes::find;
 use noisefloor_denoiser::Input;
 use noisefloor_frame::{Frame, Image, PixelFilter};
@@ -10,7 +10,7 @@ const SIZE: (usize, usize) = (64, 48);
 /// Samples per pixel of the reference, 16 times the longest frame's.
 const REFERENCE: u32 = 512;
 
-fn frame(scene: &Prepared, spp: u32, seed: u64, record: Record) -> Frame {
+fn frame(scene: &Prepared, spp: u32, seed: u64, record: Recorded) -> Frame {
     let mut request = RenderRequest::new(scene, SIZE.0, SIZE.1, spp);
     request.seed = seed;
     request.record = record;
@@ -37,9 +37,9 @@ fn the_default_is_not_above_its_input_and_keeps_the_light_of_diffuse_and_glossy_
     let method = noisefloor_registry::registry([]).build("virtual-flash", &Map::new()).unwrap().denoiser;
     for id in ["cornell-diffuse", "cornell", "toaster"] {
         let scene = Prepared::new(&(find(id).unwrap().build)().at_frame(0)).unwrap();
-        let truth = frame(&scene, REFERENCE, 1, Record::color_only()).color.mean;
+        let truth = frame(&scene, REFERENCE, 1, Recorded::color_only()).color.mean;
         for spp in [8, 16, 32] {
-            let noisy = frame(&scene, spp, 2 + u64::from(spp), Record::Available);
+            let noisy = frame(&scene, spp, 2 + u64::from(spp), Recorded::Available);
             let filtered = method.denoise(&Input::new(&noisy)).unwrap().image;
             let before = errors(&noisy.color.mean, &truth);
             for (after, before) in errors(&filtered, &truth).into_iter().zip(before) {

@@ -10,7 +10,7 @@ use glam::Vec3;
 use noisefloor_denoiser::Need;
 use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
 use noisefloor_render::{
-    FeatureHit, Keep, PhotonMaps, Prepared, Purpose, Quantity, Record, RenderRequest, available,
+    FeatureHit, Keep, PhotonMaps, Prepared, Purpose, Quantity, Recorded, RenderRequest, available,
     sequence_seed, usual_seed,
 };
 use noisefloor_scenes::{EnvironmentMap, Scene, Sky};
@@ -182,7 +182,7 @@ fn find_scene(args: &Render) -> anyhow::Result<(Scene, Vec<PathBuf>)> {
 }
 
 /// Everything that some registered method needs or uses, as far as the scene can give it.
-fn useful(context: &Context, can: &[Quantity]) -> Record {
+fn useful(context: &Context, can: &[Quantity]) -> Recorded {
     let mut wanted = BTreeSet::new();
     for factory in context.registry.factories() {
         if let Ok(method) = factory.build(&Map::new()) {
@@ -192,7 +192,7 @@ fn useful(context: &Context, can: &[Quantity]) -> Record {
     }
     // Cheap, and asked for by nearly every published method.
     wanted.extend([Quantity::Albedo, Quantity::Normal, Quantity::Depth, Quantity::Visibility]);
-    Record::Exactly(can.iter().filter(|q| wanted.contains(q)).map(|q| (*q, Keep::ALL)).collect())
+    Recorded::Exactly(can.iter().filter(|q| wanted.contains(q)).map(|q| (*q, Keep::ALL)).collect())
 }
 
 fn quantity(need: &Need) -> Option<Quantity> {
@@ -206,7 +206,7 @@ fn quantity(need: &Need) -> Option<Quantity> {
     }
 }
 
-fn named(names: &[String], can: &[Quantity]) -> anyhow::Result<Record> {
+fn named(names: &[String], can: &[Quantity]) -> anyhow::Result<Recorded> {
     let list = || can.iter().map(|q| q.name()).collect::<Vec<_>>().join(", ");
     let mut chosen = BTreeMap::new();
     for name in names.iter().map(|n| n.trim()).filter(|n| !matches!(*n, "none" | "color" | "colour")) {
@@ -215,5 +215,5 @@ fn named(names: &[String], can: &[Quantity]) -> anyhow::Result<Record> {
             None => bail!("--record {name}: this scene can give {}, and always the colour", list()),
         }
     }
-    Ok(Record::Exactly(chosen))
+    Ok(Recorded::Exactly(chosen))
 }

@@ -8,7 +8,8 @@ use noisefloor_frame::Image;
 use noisefloor_io::{Destination, IoError};
 use noisefloor_metrics::tone_map;
 use noisefloor_render::{
-    Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderRequest, Silent, render, render_reference,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Recorded, RenderRequest, Silent, render,
+    render_reference,
 };
 use noisefloor_report::{SheetEntry, contact_sheet};
 use serde_json::{Value, json};
@@ -77,7 +78,7 @@ fn sheet(args: &Scenes, path: &Path) -> anyhow::Result<Exit> {
         let maps = entry.photon_mapped.then(|| PhotonMaps::new(&prepared, &PhotonSettings::default(), 0));
         let maps = maps.transpose()?;
         let noisy = RenderRequest {
-            record: Record::color_only(),
+            record: Recorded::color_only(),
             photons: maps.as_ref(),
             integrator: match maps {
                 Some(_) => Integrator::PhotonMapping,

@@ -4,8 +4,8 @@ use noisefloor_conformance::Tolerance;
 use noisefloor_denoiser::{Citation, DenoiseError, Denoiser, Guarded, Input, MethodCard, Output};
 use noisefloor_frame::{Frame, Image, Variance};
 use noisefloor_stats::{
-    BoundTally, Counts, CoverageTally, Level, Observed, Truth, bound_violations, clustered_rate, coverage,
-    half_widths,
+    BoundTally, CoverageTally, Level, Observed, SampleCounts, Truth, bound_violations, clustered_rate,
+    coverage, half_widths,
 };
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
@@ -20,7 +20,7 @@ fn observed(frame: &Frame) -> Observed<'_> {
     Observed {
         mean: frame.color.mean.data(),
         variance: frame.color.variance.as_ref().map_or(&[], |v| v.mean_variance().data()),
-        counts: Counts::Uniform(frame.samples.at(0)),
+        counts: SampleCounts::Uniform(frame.samples.at(0)),
         pixels: frame.pixels(),
         valid: None,
     }

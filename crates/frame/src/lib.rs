@@ -39,7 +39,7 @@ pub use image::{Image, luminance};
 pub use inspect::Fidelity;
 pub use integrator::Integrator;
 pub use photons::{Maps, PhotonSettings};
-pub use provenance::{Camera, PixelFilter, Provenance, Rounds};
+pub use provenance::{Camera, PixelFilter, Provenance, RoundsTaken};
 pub use reference::{Reference, SquaredError};
 pub use running::{BLOCK_SAMPLES, BlockTree, Moments};
 pub use samples::{Counts, Samples};

@@ -42,7 +42,7 @@ pub struct Camera {
 
 /// Rounds of samples, the first of them uniform, the others where they seemed to be needed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Rounds {
+pub struct RoundsTaken {
     /// How many.
     pub count: u32,
     /// Seconds that the decisions took where to place samples.
@@ -73,7 +73,7 @@ pub struct Provenance {
     /// Which photon maps carried the light, where the frame says it.
     pub photon_maps: Option<Maps>,
     /// How it was rendered in rounds, if samples were placed by what was seen.
-    pub rounds: Option<Rounds>,
+    pub rounds: Option<RoundsTaken>,
     /// Sample sequence, such as `independent` or `owen-sobol`.
     pub sampler: Option<String>,
     /// Random seed.

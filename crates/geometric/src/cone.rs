@@ -6,7 +6,7 @@
 //! that no window is cut at the left or the right.
 
 use noisefloor_frame::Image;
-use noisefloor_kernels::{Level, Vectorised};
+use noisefloor_kernels::{InstructionSet, Vectorised};
 use rayon::prelude::*;
 
 use crate::guides::{Guides, OUTSIDE};
@@ -76,11 +76,11 @@ impl<'a> Cone<'a> {
 
     /// The filtered image: Listing, line 1.
     pub fn filter(&self) -> Image {
-        self.filter_at(Level::best())
+        self.filter_at(InstructionSet::best())
     }
 
     /// The same with a given instruction set.
-    fn filter_at(&self, level: Level) -> Image {
+    fn filter_at(&self, level: InstructionSet) -> Image {
         let mut data = vec![0.0; 3 * self.width * self.height];
         let (r, rest) = data.split_at_mut(self.width * self.height);
         let (g, b) = rest.split_at_mut(self.width * self.height);

@@ -162,7 +162,7 @@ fn own_name() -> String {
 
 #[cfg(test)]
 mod tests {
-    use noisefloor_frame::Rounds;
+    use noisefloor_frame::RoundsTaken;
     use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
     use super::*;
@@ -175,7 +175,7 @@ mod tests {
             .render(4, seed);
         frame.provenance.render_seconds = Some(seed as f64);
         frame.provenance.render_threads = Some(3);
-        frame.provenance.rounds = Some(Rounds { count: 4, density_seconds: Some(0.5) });
+        frame.provenance.rounds = Some(RoundsTaken { count: 4, density_seconds: Some(0.5) });
         frame
     }
 
@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(hit(&cache).unwrap(), frame(1));
         let mut slower = frame(1);
         slower.provenance.render_seconds = Some(99.0);
-        slower.provenance.rounds = Some(Rounds { count: 4, density_seconds: Some(7.0) });
+        slower.provenance.rounds = Some(RoundsTaken { count: 4, density_seconds: Some(7.0) });
         let elsewhere = tempfile::tempdir().unwrap();
         Cache::open(elsewhere.path()).unwrap().put(KEY, &mut slower).unwrap();
         let names = |root: &Path| -> Vec<String> {

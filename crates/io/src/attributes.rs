@@ -6,7 +6,7 @@ use std::path::Path;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::meta::header::standard_names;
 use noisefloor_frame::{
-    Camera, Counts, Integrator, Maps, PixelFilter, Provenance, Rounds, Samples, Sampling,
+    Camera, Counts, Integrator, Maps, PixelFilter, Provenance, RoundsTaken, Samples, Sampling,
 };
 
 use crate::IoError;
@@ -182,7 +182,7 @@ pub(crate) fn facts(file: &Path, attributes: &Attributes) -> Result<Facts, IoErr
         left.remove(PHOTON_MAPS);
     }
     // How long the decisions took is no part of the frame, like other times.
-    provenance.rounds = take(&mut left, ROUNDS).map(|count| Rounds { count, density_seconds: None });
+    provenance.rounds = take(&mut left, ROUNDS).map(|count| RoundsTaken { count, density_seconds: None });
     provenance.seed = take(&mut left, "seed");
     provenance.render_seconds = take(&mut left, "renderSeconds");
     provenance.render_threads = take(&mut left, "renderThreads");

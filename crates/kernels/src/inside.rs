@@ -1,7 +1,7 @@
 //! What the tests of this crate look at beyond its interface. They stand beside the library, not in it, so that its
 //! inner loops, which take minutes to compile for every instruction set, are compiled once.
 
-use crate::Level;
+use crate::InstructionSet;
 use crate::flash_filter::{self, FlashFilterError, FlashInputs, FlashParams};
 use crate::nlm::{self, Filtered, NlmError, NlmInputs, NlmParams, Pass};
 #[cfg(target_arch = "x86_64")]
@@ -18,7 +18,7 @@ pub fn nlm_in_tiles(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-    level: Level,
+    level: InstructionSet,
     tile: (usize, usize),
 ) -> Result<Vec<Filtered>, NlmError> {
     params.check(passes, inputs)?;
@@ -35,7 +35,7 @@ pub fn nlm_in_tiles(
 pub fn flash_filter_in_tiles(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
-    level: Level,
+    level: InstructionSet,
     tile: (usize, usize),
     out: [&mut [f32]; 3],
 ) -> Result<(), FlashFilterError> {
@@ -47,7 +47,7 @@ pub fn flash_filter_in_tiles(
 
 /// 2^x as the kernels compute it, for x ≤ 0; `None` where the processor lacks the level.
 #[must_use]
-pub fn exp2(level: Level, x: f32) -> Option<f32> {
+pub fn exp2(level: InstructionSet, x: f32) -> Option<f32> {
     if !level.is_available() {
         return None;
     }
@@ -55,9 +55,9 @@ pub fn exp2(level: Level, x: f32) -> Option<f32> {
     Some(unsafe {
         match level {
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => exp2_of::<Avx512>(x),
+            InstructionSet::Avx512 => exp2_of::<Avx512>(x),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => exp2_of::<Avx2>(x),
+            InstructionSet::Avx2 => exp2_of::<Avx2>(x),
             _ => exp2_of::<Portable>(x),
         }
     })

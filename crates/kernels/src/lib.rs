@@ -12,13 +12,13 @@ pub mod flash_filter;
 mod grid;
 #[doc(hidden)]
 pub mod inside;
-mod level;
+mod instruction_set;
 mod mirror;
 pub mod nlm;
 mod simd;
 mod tiles;
 mod vectorised;
 
-pub use level::Level;
+pub use instruction_set::InstructionSet;
 pub use mirror::mirror;
 pub use vectorised::Vectorised;

@@ -1,6 +1,6 @@
 //! Plain Rust code compiled for several instruction sets.
 
-use crate::Level;
+use crate::InstructionSet;
 
 /// Code without a vector operation in its text, for the compiler to vectorise.
 ///
@@ -14,11 +14,11 @@ pub trait Vectorised {
     fn run(self) -> Self::Out;
 }
 
-impl Level {
+impl InstructionSet {
     /// Runs `code` compiled for this level, or plainly where the processor does not have it.
     ///
     /// ```
-    /// use noisefloor_kernels::{Level, Vectorised};
+    /// use noisefloor_kernels::{InstructionSet, Vectorised};
     ///
     /// struct Doubled<'a>(&'a mut [f32]);
     ///
@@ -32,17 +32,17 @@ impl Level {
     /// }
     ///
     /// let mut values = [1.0; 100];
-    /// Level::best().run(Doubled(&mut values));
+    /// InstructionSet::best().run(Doubled(&mut values));
     /// assert_eq!(values, [2.0; 100]);
     /// ```
     pub fn run<V: Vectorised>(self, code: V) -> V::Out {
         match self {
             // SAFETY: `is_available` has asked the processor for what the function enables.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 if self.is_available() => unsafe { avx512(code) },
+            InstructionSet::Avx512 if self.is_available() => unsafe { avx512(code) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 if self.is_available() => unsafe { avx2(code) },
+            InstructionSet::Avx2 if self.is_available() => unsafe { avx2(code) },
             _ => code.run(),
         }
     }

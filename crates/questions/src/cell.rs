@@ -106,8 +106,8 @@ impl<'a> Measure<'a> {
             mean: self.frame.color.mean.data(),
             variance: variance.data(),
             counts: match self.frame.samples.total() {
-                Counts::Uniform(n) => stats::Counts::Uniform(*n),
-                Counts::PerPixel(map) => stats::Counts::PerPixel(map),
+                Counts::Uniform(n) => stats::SampleCounts::Uniform(*n),
+                Counts::PerPixel(map) => stats::SampleCounts::PerPixel(map),
             },
             pixels: self.frame.pixels(),
             valid: Some(&self.valid),

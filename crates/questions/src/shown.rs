@@ -2,48 +2,48 @@
 
 use std::collections::BTreeSet;
 
-use noisefloor_study::exhibit::{Cell, Column, Number, Tone};
+use noisefloor_study::exhibit::{Column, Number, TableCell, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::{BoundState, Interval};
 
 /// A value with its uncertainty.
-pub(crate) fn value(interval: &Interval) -> Cell {
+pub(crate) fn value(interval: &Interval) -> TableCell {
     let shown = format::interval(interval);
-    Cell::text(shown.value).aside(shown.spread).number(interval.into())
+    TableCell::text(shown.value).aside(shown.spread).number(interval.into())
 }
 
 /// A value, or an empty cell.
-pub(crate) fn value_or_empty(interval: Option<&Interval>) -> Cell {
+pub(crate) fn value_or_empty(interval: Option<&Interval>) -> TableCell {
     interval.map(value).unwrap_or_default()
 }
 
 /// A fraction in percent with its uncertainty.
-pub(crate) fn fraction(interval: &Interval) -> Cell {
+pub(crate) fn fraction(interval: &Interval) -> TableCell {
     let shown = format::percent_interval(interval);
-    Cell::text(shown.value).aside(shown.spread).number(interval.into())
+    TableCell::text(shown.value).aside(shown.spread).number(interval.into())
 }
 
 /// A fraction in percent.
-pub(crate) fn share(fraction: f64) -> Cell {
-    Cell::text(format::percent(fraction)).number(Number::exact(fraction))
+pub(crate) fn share(fraction: f64) -> TableCell {
+    TableCell::text(format::percent(fraction)).number(Number::exact(fraction))
 }
 
 /// A ratio with both ends of its interval.
-pub(crate) fn ratio(interval: &Interval) -> Cell {
+pub(crate) fn ratio(interval: &Interval) -> TableCell {
     let text = interval
         .below
         .map_or_else(|| format::ratio(interval.value), |limit| format!("< {}", format::ratio(limit)));
-    Cell::text(text).aside(format::bracket(interval, format::ratio)).number(interval.into())
+    TableCell::text(text).aside(format::bracket(interval, format::ratio)).number(interval.into())
 }
 
 /// An effect that is a ratio or, where there is none, a difference, which the cell then says.
-pub(crate) fn effect(cell: Cell, is_ratio: bool) -> Cell {
-    if is_ratio { cell } else { Cell { text: format!("difference {}", cell.text), ..cell } }
+pub(crate) fn effect(cell: TableCell, is_ratio: bool) -> TableCell {
+    if is_ratio { cell } else { TableCell { text: format!("difference {}", cell.text), ..cell } }
 }
 
 /// A duration, or that there is none.
-pub(crate) fn seconds(seconds: Option<f64>) -> Cell {
-    seconds.map_or_else(Cell::none, |s| Cell::text(format::duration(s)).number(Number::exact(s)))
+pub(crate) fn seconds(seconds: Option<f64>) -> TableCell {
+    seconds.map_or_else(TableCell::none, |s| TableCell::text(format::duration(s)).number(Number::exact(s)))
 }
 
 /// A column for a level of samples per pixel.

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use noisefloor_study::exhibit::{Cell, RowKind, RowLook};
+use noisefloor_study::exhibit::{RowKind, RowLook, TableCell};
 use noisefloor_study::summary::{
-    CellSummary, Comparison, MethodSummary, MetricInfo, Progress, SceneSummary, Summary,
+    CellSummary, Comparison, Completion, MethodSummary, MetricInfo, SceneSummary, Summary,
 };
 use noisefloor_study::{BASELINE, RowFrames};
 
@@ -119,7 +119,7 @@ impl<'a> View<'a> {
 
     /// Whether every cell that the study asks for ended; also where that is not known, which is told elsewhere.
     pub(crate) fn complete(&self) -> bool {
-        self.summary.progress.as_ref().is_none_or(Progress::complete)
+        self.summary.progress.as_ref().is_none_or(Completion::complete)
     }
 
     /// The same for a level of a scene.
@@ -152,8 +152,8 @@ impl<'a> View<'a> {
     }
 
     /// The name of a row with its look.
-    pub(crate) fn row_cell(&self, label: &str) -> Cell {
-        Cell::row(label, self.row(label))
+    pub(crate) fn row_cell(&self, label: &str) -> TableCell {
+        TableCell::row(label, self.row(label))
     }
 
     /// Whether smaller values of a metric are better; also where that is not known.

@@ -4,7 +4,7 @@
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Estimate, Far, FeatureId, Frame, Image, Sampling, UnitRange};
 use noisefloor_kernels::nlm::{FeatureChannel, MAX_VARIANCE, NlmParams};
-use noisefloor_toolbox::{Slope, mean_of_halves, scaled_sample_variance, smoothed_half_variance};
+use noisefloor_toolbox::{SlopeRule, mean_of_halves, scaled_sample_variance, smoothed_half_variance};
 
 use crate::VarianceScaling;
 use crate::kernel::{self, within_range};
@@ -123,8 +123,8 @@ pub(crate) fn scales(scaling: VarianceScaling, sampling: Sampling) -> bool {
 pub(crate) fn squared_slope(image: &Image, rule: Gradient) -> Image {
     let rule = match rule {
         Gradient::Off => return Image::new(image.width(), image.height(), image.channels()),
-        Gradient::MinHalf => Slope::MinHalf,
-        Gradient::Central => Slope::Central,
+        Gradient::MinHalf => SlopeRule::MinHalf,
+        Gradient::Central => SlopeRule::Central,
     };
     noisefloor_toolbox::squared_slope(image, rule, MAX_VARIANCE)
 }

@@ -1,7 +1,7 @@
 //! A deterministic, multi-threaded path tracer and photon mapper that records frames with their statistics.
 //!
 //! [`Prepared::new`] checks a scene and builds its acceleration structure once; [`render`] and [`render_reference`] make
-//! frames and references from it. Only what a [`Record`] asks for is gathered, and only what the scene can give.
+//! frames and references from it. Only what a [`Recorded`] asks for is gathered, and only what the scene can give.
 
 mod allocate;
 mod bsdf;
@@ -42,7 +42,7 @@ pub use noisefloor_frame::{FeatureHit, Integrator, PhotonSettings};
 pub use photons::PhotonMaps;
 pub use prepare::Prepared;
 pub use progress::{Progress, Silent};
-pub use record::{Keep, Quantity, Record, available};
+pub use record::{Keep, Quantity, Recorded, available};
 pub use render::{render, render_reference};
 pub use request::{Purpose, REVISION, RenderRequest, sequence_seed, usual_seed};
 pub use rounds::Rounds;

@@ -8,7 +8,7 @@ use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Var
 use crate::path::Outcome;
 use crate::planes::Planes;
 use crate::tally::Tally;
-use crate::{Integrator, Keep, Quantity, Record, RenderError, RenderRequest};
+use crate::{Integrator, Keep, Quantity, Recorded, RenderError, RenderRequest};
 
 /// Values in a tally without features and flash: the colour.
 pub const COLOR: usize = 3;
@@ -111,8 +111,8 @@ impl Plan {
             halves: keep.halves && limit.halves,
         };
         let kept: Vec<(Quantity, Keep)> = match record {
-            Record::Available => can.iter().map(|q| (*q, limit)).collect(),
-            Record::Exactly(map) => map.iter().map(|(q, keep)| (*q, both(*keep))).collect(),
+            Recorded::Available => can.iter().map(|q| (*q, limit)).collect(),
+            Recorded::Exactly(map) => map.iter().map(|(q, keep)| (*q, both(*keep))).collect(),
         };
         if let Some((missing, _)) = kept.iter().find(|(q, _)| !can.contains(q)) {
             let names: Vec<&str> = can.iter().map(|q| q.name()).collect();

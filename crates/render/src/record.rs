@@ -111,7 +111,7 @@ impl Keep {
 
 /// What to record beside the colour.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Record {
+pub enum Recorded {
     /// Everything the scene can give, with variances and halves.
     #[default]
     Available,
@@ -119,7 +119,7 @@ pub enum Record {
     Exactly(BTreeMap<Quantity, Keep>),
 }
 
-impl Record {
+impl Recorded {
     /// The colour alone.
     #[must_use]
     pub fn color_only() -> Self {

@@ -3,7 +3,7 @@
 use noisefloor_frame::{PixelFilter, Sampling};
 
 use crate::limits::{DEEPEST, LONGEST_SEQUENCE, MAX_MEMORY, check_size};
-use crate::{FeatureHit, Integrator, PhotonMaps, Prepared, Record, RenderError};
+use crate::{FeatureHit, Integrator, PhotonMaps, Prepared, Recorded, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
 pub const REVISION: u32 = 3;
@@ -71,7 +71,7 @@ pub struct RenderRequest<'a> {
     /// Independent samples, or two separately randomised Owen-scrambled Sobol sequences, one for each half.
     pub sampling: Sampling,
     /// What to record beside the colour.
-    pub record: Record,
+    pub record: Recorded,
     /// Where along a path the features are taken.
     pub feature_hit: FeatureHit,
     /// How light is carried; photon mapping needs `photons`.
@@ -96,7 +96,7 @@ impl<'a> RenderRequest<'a> {
             depth: 8,
             filter: PixelFilter::Box,
             sampling: Sampling::Independent,
-            record: Record::Available,
+            record: Recorded::Available,
             feature_hit: FeatureHit::First,
             integrator: Integrator::PathTracing,
             photons: None,

@@ -9,7 +9,7 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::Sampling;
 use noisefloor_render::{
-    Integrator, PhotonMaps, PhotonSettings, Prepared, Record, RenderError, RenderRequest, Rounds, Silent,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Recorded, RenderError, RenderRequest, Rounds, Silent,
     pixel_classes, render, render_reference,
 };
 use noisefloor_scenes::{EnvironmentMap, Lens, Medium, Scattering, Scene, Sky, Sun};
@@ -104,7 +104,7 @@ fn requests_out_of_range_name_their_parameter() {
 fn images_beyond_the_memory_are_refused_before_they_are_taken() {
     let prepared = Prepared::new(&cornell()).unwrap();
     let request =
-        RenderRequest { record: Record::color_only(), ..RenderRequest::new(&prepared, 16384, 16384, 4) };
+        RenderRequest { record: Recorded::color_only(), ..RenderRequest::new(&prepared, 16384, 16384, 4) };
     // Mean, variance and halves of three channels, for the frame and its file.
     assert_eq!(request.memory(None).unwrap(), (1 << 28) * 12 * 8);
     let error = render(&RenderRequest { max_memory: 6 << 30, ..request.clone() }, &Silent).unwrap_err();
@@ -154,7 +154,7 @@ fn the_brightest_light_that_is_allowed_gives_a_picture() {
         white(&mut scene, light);
         let prepared = Prepared::new(&scene).unwrap();
         render(
-            &RenderRequest { record: Record::color_only(), ..RenderRequest::new(&prepared, 16, 12, 16) },
+            &RenderRequest { record: Recorded::color_only(), ..RenderRequest::new(&prepared, 16, 12, 16) },
             &Silent,
         )
     };

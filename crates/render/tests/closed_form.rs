@@ -1,7 +1,7 @@
 //! The built-in scenes whose image is known: whole images against their formulas, and how fast errors fall.
 
 use noisefloor_frame::{Frame, PixelFilter, Sampling};
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::analytic::{BALL_OFFSET, ball_irradiance, panel_irradiance, panel_irradiance_at};
 use noisefloor_scenes::{Scene, find};
 
@@ -18,7 +18,7 @@ fn image(scene: &Prepared, spp: u32, seed: u64, sampling: Sampling) -> Frame {
         sampling,
         depth: 2,
         filter: PixelFilter::Point,
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         ..RenderRequest::new(scene, WIDTH, HEIGHT, spp)
     };
     render(&request, &Silent).unwrap()
@@ -76,7 +76,7 @@ fn the_direct_scene_is_its_formula_below_the_lamp() {
     let request = RenderRequest {
         depth: 2,
         filter: PixelFilter::Point,
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         ..RenderRequest::new(&target, 1, 1, 16_384)
     };
     let frame = render(&request, &Silent).unwrap();

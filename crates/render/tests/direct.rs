@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use common::*;
 use glam::Vec3;
 use noisefloor_frame::{Frame, PixelFilter};
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::{EnvironmentMap, Scattering, Scene, Sky};
 
 /// A floor at y = 0 seen at the origin from the side.
@@ -25,7 +25,7 @@ fn at_origin(scene: &Scene, spp: u32, depth: u32) -> Frame {
     request.filter = PixelFilter::Point;
     request.depth = depth;
     request.seed = 11;
-    request.record = Record::color_only();
+    request.record = Recorded::color_only();
     render(&request, &Silent).unwrap()
 }
 

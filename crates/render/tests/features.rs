@@ -9,8 +9,8 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Flash, Frame, Image, PixelFilter};
 use noisefloor_render::{
-    FeatureHit, Keep, PixelClass, Prepared, Quantity, Record, RenderError, RenderRequest, Silent, available,
-    pixel_classes, render,
+    FeatureHit, Keep, PixelClass, Prepared, Quantity, Recorded, RenderError, RenderRequest, Silent,
+    available, pixel_classes, render,
 };
 use noisefloor_scenes::{Lens, Scattering, Scene};
 
@@ -34,12 +34,12 @@ fn recording_changes_no_bit_of_the_colour() {
     let all = RenderRequest::new(&scene, 20, 15, 9);
     let full = render(&all, &Silent).unwrap();
     for record in
-        [Record::color_only(), Record::exactly([Quantity::Flash]), Record::exactly([Quantity::Depth])]
+        [Recorded::color_only(), Recorded::exactly([Quantity::Flash]), Recorded::exactly([Quantity::Depth])]
     {
         let frame = render(&RenderRequest { record, ..all.clone() }, &Silent).unwrap();
         assert!(frame.color == full.color);
     }
-    let only = Record::Exactly(BTreeMap::from([(Quantity::Depth, Keep { variance: true, halves: false })]));
+    let only = Recorded::Exactly(BTreeMap::from([(Quantity::Depth, Keep { variance: true, halves: false })]));
     let frame = render(&RenderRequest { record: only, ..all.clone() }, &Silent).unwrap();
     let depth = &frame.features[&FeatureId::Depth];
     assert!(frame.features.len() == 1 && frame.flash.is_none());
@@ -215,7 +215,7 @@ fn background_is_named_and_dark() {
     let names: Vec<&str> = available(&scene).into_iter().map(Quantity::name).collect();
     assert_eq!(names, ["albedo", "normal", "depth", "material", "brdf"], "there is no light");
     let prepared = Prepared::new(&scene).unwrap();
-    let record = Record::exactly([Quantity::Flash]);
+    let record = Recorded::exactly([Quantity::Flash]);
     let error =
         render(&RenderRequest { record, ..RenderRequest::new(&prepared, 1, 1, 2) }, &Silent).unwrap_err();
     assert!(matches!(error, RenderError::Unavailable { quantity: "flash", .. }), "{error}");
@@ -229,7 +229,7 @@ fn the_mean_brdf_sample_is_the_reflectance_of_the_surface() {
         let material = add_material(&mut scene, scattering, 0.0);
         sphere(&mut scene, Vec3::ZERO, 1.0, material);
         let prepared = Prepared::new(&scene).unwrap();
-        let record = Record::exactly([Quantity::Brdf, Quantity::Albedo]);
+        let record = Recorded::exactly([Quantity::Brdf, Quantity::Albedo]);
         render(&RenderRequest { record, depth: 2, ..RenderRequest::new(&prepared, 1, 1, spp) }, &Silent)
             .unwrap()
     };
@@ -269,14 +269,14 @@ fn rare_features_change_nothing_else() {
         Quantity::Direct,
         Quantity::Flash,
     ];
-    let few = with(Record::exactly(usual));
-    let many = with(Record::Available);
+    let few = with(Recorded::exactly(usual));
+    let many = with(Recorded::Available);
     assert!(few.color == many.color && few.flash == many.flash);
     for (id, feature) in &few.features {
         assert!(*feature == many.features[id], "{id:?}");
     }
     assert!(many.features.contains_key(&FeatureId::Brdf) && !few.features.contains_key(&FeatureId::Brdf));
-    assert!(many.flash == with(Record::exactly([Quantity::Flash, Quantity::Brdf])).flash);
+    assert!(many.flash == with(Recorded::exactly([Quantity::Flash, Quantity::Brdf])).flash);
 }
 
 #[test]

@@ -4,7 +4,7 @@ mod common;
 
 use common::*;
 use glam::Vec3;
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::{Scattering, Scene};
 
 fn radiance(scene: &Scene, depth: u32, spp: u32) -> noisefloor_frame::Frame {
@@ -12,7 +12,7 @@ fn radiance(scene: &Scene, depth: u32, spp: u32) -> noisefloor_frame::Frame {
     let mut request = RenderRequest::new(&prepared, 8, 8, spp);
     request.depth = depth;
     request.seed = 3;
-    request.record = Record::color_only();
+    request.record = Recorded::color_only();
     render(&request, &Silent).unwrap()
 }
 

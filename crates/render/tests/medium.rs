@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Flash, Frame};
-use noisefloor_render::{FeatureHit, Prepared, Quantity, Record, RenderRequest, Silent, render};
+use noisefloor_render::{FeatureHit, Prepared, Quantity, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::{Medium, Scattering, Scene};
 
 fn fog(absorption: f32, scattering: f32, mean_cosine: f32) -> Option<Medium> {
@@ -17,7 +17,7 @@ fn radiance(scene: &Scene, depth: u32, spp: u32) -> Frame {
     let request = RenderRequest {
         seed: 4,
         depth,
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         ..RenderRequest::new(&prepared, 8, 8, spp)
     };
     render(&request, &Silent).unwrap()
@@ -159,7 +159,7 @@ fn the_mean_brdf_sample_is_that_of_the_surface_behind_the_medium() {
     quad(&mut scene, Vec3::new(-1.0, 4.0, 0.0), Vec3::X * 2.0, Vec3::Z * 2.0, light);
     let of = |medium| {
         let prepared = Prepared::new(&Scene { medium, ..scene.clone() }).unwrap();
-        let record = Record::exactly([Quantity::Brdf]);
+        let record = Recorded::exactly([Quantity::Brdf]);
         let frame =
             render(&RenderRequest { record, ..RenderRequest::new(&prepared, 2, 2, 64) }, &Silent).unwrap();
         frame.features[&FeatureId::Brdf].mean.clone()

@@ -5,7 +5,7 @@ mod common;
 use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Frame, PixelFilter, Sampling};
-use noisefloor_render::{Prepared, Quantity, Record, RenderRequest, Silent, render};
+use noisefloor_render::{Prepared, Quantity, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::{Body, CameraMove, Scene, Spin};
 
 const SIZE: usize = 24;
@@ -16,7 +16,7 @@ fn image(scene: &Scene, spp: u32, sampling: Sampling) -> Frame {
     let request = RenderRequest {
         sampling,
         filter: PixelFilter::Point,
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         seed: 11,
         ..RenderRequest::new(&prepared, SIZE, SIZE, spp)
     };
@@ -120,14 +120,14 @@ fn a_turning_body_in_a_furnace_loses_nothing() {
         scene.add_body(1.0, body);
         let prepared = Prepared::new(&scene).unwrap();
         let request =
-            RenderRequest { record: Record::color_only(), ..RenderRequest::new(&prepared, 8, 8, 512) };
+            RenderRequest { record: Recorded::color_only(), ..RenderRequest::new(&prepared, 8, 8, 512) };
         assert_radiance(&render(&request, &Silent).unwrap(), 1.0, 0.01);
     }
 }
 
 fn motion(scene: &Scene) -> Frame {
     let prepared = Prepared::new(scene).unwrap();
-    let record = Record::exactly([Quantity::Motion]);
+    let record = Recorded::exactly([Quantity::Motion]);
     let filter = PixelFilter::Point;
     let request = RenderRequest { record, filter, ..RenderRequest::new(&prepared, SIZE, SIZE, 16) };
     render(&request, &Silent).unwrap()
@@ -167,7 +167,7 @@ fn motion_is_where_the_point_goes_on_the_image() {
 fn a_scene_that_stands_still_has_no_motion_to_record() {
     let prepared = Prepared::new(&cornell()).unwrap();
     let request = RenderRequest {
-        record: Record::exactly([Quantity::Motion]),
+        record: Recorded::exactly([Quantity::Motion]),
         ..RenderRequest::new(&prepared, 2, 2, 2)
     };
     assert!(render(&request, &Silent).unwrap_err().to_string().contains("motion"));

@@ -6,7 +6,7 @@ use common::*;
 use glam::Vec3;
 use noisefloor_frame::{FeatureId, Frame, Moments, Sampling};
 use noisefloor_render::{
-    Integrator, PhotonMaps, PhotonSettings, Prepared, Quantity, Record, RenderError, RenderRequest, Silent,
+    Integrator, PhotonMaps, PhotonSettings, Prepared, Quantity, Recorded, RenderError, RenderRequest, Silent,
     render,
 };
 use noisefloor_scenes::{Scattering, Scene};
@@ -49,7 +49,7 @@ fn image(prepared: &Prepared, photons: Option<&PhotonMaps>, spp: u32, seed: u64)
         photons,
         depth: DEPTH,
         sampling: Sampling::LowDiscrepancy,
-        record: Record::color_only(),
+        record: Recorded::color_only(),
         ..RenderRequest::new(prepared, WIDTH, HEIGHT, spp)
     };
     render(&request, &Silent).unwrap()
@@ -136,7 +136,7 @@ fn direct_light_is_that_of_path_tracing_bit_for_bit() {
     let prepared = Prepared::new(&room(glass)).unwrap();
     let maps = PhotonMaps::new(&prepared, &settings(), 1).unwrap();
     let by = |integrator, photons, depth| {
-        let record = Record::exactly([Quantity::Direct, Quantity::Flash]);
+        let record = Recorded::exactly([Quantity::Direct, Quantity::Flash]);
         let request =
             RenderRequest { integrator, photons, depth, record, ..RenderRequest::new(&prepared, 16, 12, 4) };
         render(&request, &Silent).unwrap()
@@ -175,7 +175,7 @@ fn caustic_density_is_there_where_something_bends_light() {
     let density = |scene: &Scene| {
         let prepared = Prepared::new(scene).unwrap();
         let maps = PhotonMaps::new(&prepared, &settings(), 2).unwrap();
-        let record = Record::exactly([Quantity::Caustics, Quantity::Albedo]);
+        let record = Recorded::exactly([Quantity::Caustics, Quantity::Albedo]);
         let request =
             RenderRequest { photons: Some(&maps), record, ..RenderRequest::new(&prepared, WIDTH, HEIGHT, 8) };
         render(&request, &Silent).unwrap().features[&FeatureId::Caustics].mean.clone()

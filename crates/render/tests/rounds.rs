@@ -5,7 +5,7 @@ mod common;
 use common::cornell;
 use glam::Vec3;
 use noisefloor_frame::{Counts, Estimate, FeatureId, Frame, Image, Sampling};
-use noisefloor_render::{Prepared, Quantity, Record, RenderRequest, Rounds, Silent, allocate, render};
+use noisefloor_render::{Prepared, Quantity, Recorded, RenderRequest, Rounds, Silent, allocate, render};
 use noisefloor_scenes::Body;
 
 const SIZE: (usize, usize) = (20, 14);
@@ -38,15 +38,15 @@ fn rounds_give_each_pixel_the_bits_of_one_run_with_its_samples() {
     let moving = Prepared::new(&moving).unwrap();
     // Each kind of record has code of its own.
     let features = [Quantity::Albedo, Quantity::Visibility];
-    let both = Record::exactly([Quantity::Depth, Quantity::Flash]);
+    let both = Recorded::exactly([Quantity::Depth, Quantity::Flash]);
     for (scene, sampling, record) in [
-        (&still, Sampling::Independent, Record::Available),
-        (&still, Sampling::LowDiscrepancy, Record::color_only()),
-        (&still, Sampling::Independent, Record::exactly(features)),
-        (&still, Sampling::LowDiscrepancy, Record::exactly([Quantity::Flash])),
+        (&still, Sampling::Independent, Recorded::Available),
+        (&still, Sampling::LowDiscrepancy, Recorded::color_only()),
+        (&still, Sampling::Independent, Recorded::exactly(features)),
+        (&still, Sampling::LowDiscrepancy, Recorded::exactly([Quantity::Flash])),
         (&still, Sampling::Independent, both),
-        (&moving, Sampling::LowDiscrepancy, Record::Available),
-        (&moving, Sampling::Independent, Record::color_only()),
+        (&moving, Sampling::LowDiscrepancy, Recorded::Available),
+        (&moving, Sampling::Independent, Recorded::color_only()),
     ] {
         let first = RenderRequest { sampling, record, ..request(scene, 3) };
         let mut rounds = Rounds::start(&first, &Silent).unwrap();

@@ -5,13 +5,13 @@ mod common;
 use common::*;
 use glam::Vec3;
 use noisefloor_frame::{Frame, PixelFilter};
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::{Scattering, Scene, Sky};
 
 fn one_pixel(scene: &Scene, spp: u32, depth: u32) -> Frame {
     let prepared = Prepared::new(scene).unwrap();
     let mut request = RenderRequest::new(&prepared, 1, 1, spp);
-    (request.filter, request.depth, request.record) = (PixelFilter::Point, depth, Record::color_only());
+    (request.filter, request.depth, request.record) = (PixelFilter::Point, depth, Recorded::color_only());
     render(&request, &Silent).unwrap()
 }
 
@@ -64,7 +64,7 @@ fn a_glass_ball_focuses_but_keeps_energy() {
     sphere(&mut scene, Vec3::new(0.0, 0.6, 0.0), 0.5, glass);
     let prepared = Prepared::new(&scene).unwrap();
     let mut request = RenderRequest::new(&prepared, 16, 12, 512);
-    request.record = Record::color_only();
+    request.record = Recorded::color_only();
     request.depth = 64;
     let frame = render(&request, &Silent).unwrap();
     let variance = frame.color.variance.as_ref().unwrap().mean_variance();

@@ -4,7 +4,7 @@ mod common;
 
 use common::*;
 use noisefloor_frame::{Estimate, FeatureId, Frame, PixelFilter, Sampling};
-use noisefloor_render::{Prepared, Record, RenderRequest, Silent, render, render_reference};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render, render_reference};
 
 /// The same request with every random seed of a range.
 fn frames(request: &RenderRequest<'_>, seeds: std::ops::Range<u64>) -> Vec<Frame> {
@@ -53,7 +53,7 @@ fn frames_are_equal_for_any_number_of_threads() {
 fn sample_variance_over_n_is_the_variance_between_seeds() {
     let scene = Prepared::new(&cornell()).unwrap();
     let request =
-        RenderRequest { record: Record::color_only(), depth: 4, ..RenderRequest::new(&scene, 24, 18, 8) };
+        RenderRequest { record: Recorded::color_only(), depth: 4, ..RenderRequest::new(&scene, 24, 18, 8) };
     let frames = frames(&request, 0..40);
     for channel in 0..3 {
         let means: Vec<_> = frames.iter().map(|f| plane(&f.color.mean, channel)).collect();
@@ -74,7 +74,7 @@ fn half_buffers_agree_with_the_mean_and_are_independent() {
     let scene = Prepared::new(&cornell()).unwrap();
     for sampling in [Sampling::Independent, Sampling::LowDiscrepancy] {
         let request = RenderRequest {
-            record: Record::color_only(),
+            record: Recorded::color_only(),
             sampling,
             depth: 4,
             ..RenderRequest::new(&scene, 24, 18, 15)
@@ -109,7 +109,7 @@ fn low_discrepancy_error_is_smaller_than_independent_error_at_equal_samples() {
     let scene = Prepared::new(&cornell()).unwrap();
     let spread = |sampling| {
         let request = RenderRequest {
-            record: Record::color_only(),
+            record: Recorded::color_only(),
             sampling,
             depth: 3,
             ..RenderRequest::new(&scene, 16, 12, 128)

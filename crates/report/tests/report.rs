@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use base64::Engine as _;
 use fixture::{HOSTILE, document, write_images};
 use noisefloor_report::{ReportFiles, ReportOptions, write_report, write_report_with};
-use noisefloor_study::exhibit::{Cell, Document, Part};
+use noisefloor_study::exhibit::{Document, Part, TableCell};
 
 fn written(dir: &Path, document: &Document) -> (ReportFiles, String) {
     write_images(dir, document);
@@ -198,7 +198,7 @@ fn markup_in_names_is_shown_and_not_obeyed() {
     let board = nasty.front.board.as_mut().unwrap();
     board.caption = HOSTILE.into();
     board.rows[0].cells[1] =
-        Cell::row(HOSTILE, 1).aside(HOSTILE).about(HOSTILE).tag(HOSTILE, Default::default(), HOSTILE);
+        TableCell::row(HOSTILE, 1).aside(HOSTILE).about(HOSTILE).tag(HOSTILE, Default::default(), HOSTILE);
     nasty.gallery[0].title = HOSTILE.into();
     nasty.gallery[0].levels[1].rows[0].label = HOSTILE.into();
     if let Part::Charts(charts) = &mut nasty.exhibits[1].parts[1] {

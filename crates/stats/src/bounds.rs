@@ -137,15 +137,15 @@ pub fn bound_verdict(rate: &Interval, alpha: f64) -> BoundVerdict {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Counts;
+    use crate::SampleCounts;
 
-    fn observed<'a>(mean: &'a [f32], variance: &'a [f32], counts: Counts<'a>) -> Observed<'a> {
+    fn observed<'a>(mean: &'a [f32], variance: &'a [f32], counts: SampleCounts<'a>) -> Observed<'a> {
         Observed { mean, variance, counts, pixels: mean.len(), valid: None }
     }
 
     #[test]
     fn half_widths_add_their_terms() {
-        let o = observed(&[0.0; 2], &[0.25, 4.0], Counts::PerPixel(&[16, 1]));
+        let o = observed(&[0.0; 2], &[0.25, 4.0], SampleCounts::PerPixel(&[16, 1]));
         let widths = half_widths(&o, &[(2.0, Level::TWO_SIDED_998), (1.0, Level::TWO_SIDED_99)]).unwrap();
         // (2·3.7328 + 2.9467)·0.5
         assert!((widths[0] - 5.206_15).abs() < 1e-4, "{}", widths[0]);
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn violations_are_counted_with_and_without_allowance() {
-        let o = observed(&[0.0; 6], &[1.0, 1.0, 1.0, 0.0, 1.0, 1.0], Counts::Uniform(4));
+        let o = observed(&[0.0; 6], &[1.0, 1.0, 1.0, 0.0, 1.0, 1.0], SampleCounts::Uniform(4));
         let denoised = [0.9, 1.1, 1.5, 0.5, f32::NAN, 0.2];
         let bound = [1.0, 1.0, 1.0, 0.0, 1.0, f64::INFINITY];
         // t_r = 2.5758: the allowance for v_r = 0.1 widens a bound of 1 to 1.2899 and a bound of 0 to 0.8145.

@@ -98,11 +98,11 @@ pub fn coverage(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Counts;
+    use crate::SampleCounts;
 
     fn count(mean: &[f32], variance: &[f32], truth: &[f32], noise: Option<&[f32]>) -> CoverageTally {
         let observed =
-            Observed { mean, variance, counts: Counts::Uniform(16), pixels: mean.len(), valid: None };
+            Observed { mean, variance, counts: SampleCounts::Uniform(16), pixels: mean.len(), valid: None };
         let truth = Truth { mean: truth, variance: noise };
         coverage(&observed, &truth, Level::TWO_SIDED_99, None).unwrap()[0]
     }
@@ -139,7 +139,7 @@ mod tests {
         let observed = Observed {
             mean: &[0.0; 6],
             variance: &[1.0; 6],
-            counts: Counts::PerPixel(&[1, 16]),
+            counts: SampleCounts::PerPixel(&[1, 16]),
             pixels: 2,
             valid: None,
         };

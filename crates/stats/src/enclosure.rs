@@ -55,14 +55,14 @@ pub fn enclosure(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Counts;
+    use crate::SampleCounts;
 
     fn check(denoised: &[f32], width: &[f64]) -> Enclosure {
         let mean = vec![1.0f32; denoised.len()];
         let observed = Observed {
             mean: &mean,
             variance: &vec![1.0; denoised.len()],
-            counts: Counts::Uniform(4),
+            counts: SampleCounts::Uniform(4),
             pixels: denoised.len(),
             valid: None,
         };

@@ -33,7 +33,7 @@ pub use interval::{Interval, replicate_interval};
 pub use level::{Level, LevelError, Sides};
 pub use levels::Levels;
 pub use monte_carlo::{MonteCarloFit, monte_carlo_constant};
-pub use observed::{Counts, Groups, Observed, ShapeError, Truth};
+pub use observed::{Groups, Observed, SampleCounts, ShapeError, Truth};
 pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};
 pub use pareto::pareto_front;
 pub use plateau::{Plateau, plateau};

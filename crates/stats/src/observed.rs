@@ -4,7 +4,7 @@ use crate::{Level, TTable};
 
 /// Samples per pixel.
 #[derive(Debug, Clone, Copy)]
-pub enum Counts<'a> {
+pub enum SampleCounts<'a> {
     /// The same in every pixel.
     Uniform(u32),
     /// Row by row, one entry per pixel.
@@ -19,7 +19,7 @@ pub struct Observed<'a> {
     /// Variance of the mean, s²/n, in the same order.
     pub variance: &'a [f32],
     /// Samples per pixel.
-    pub counts: Counts<'a>,
+    pub counts: SampleCounts<'a>,
     /// Pixels per channel.
     pub pixels: usize,
     /// Pixels that take part; all if absent.
@@ -66,7 +66,7 @@ impl Observed<'_> {
         let whole = self.mean.len().checked_div(self.pixels).unwrap_or(0) * self.pixels;
         expect("mean", self.mean.len(), whole)?;
         expect("variance", self.variance.len(), self.mean.len())?;
-        if let Counts::PerPixel(map) = self.counts {
+        if let SampleCounts::PerPixel(map) = self.counts {
             expect("sample counts", map.len(), self.pixels)?;
         }
         self.valid.map_or(Ok(()), |valid| expect("valid pixels", valid.len(), self.pixels))
@@ -74,15 +74,15 @@ impl Observed<'_> {
 
     pub(crate) fn count_at(&self, pixel: usize) -> u32 {
         match self.counts {
-            Counts::Uniform(n) => n,
-            Counts::PerPixel(map) => map[pixel],
+            SampleCounts::Uniform(n) => n,
+            SampleCounts::PerPixel(map) => map[pixel],
         }
     }
 
     fn largest_count(&self) -> u32 {
         match self.counts {
-            Counts::Uniform(n) => n,
-            Counts::PerPixel(map) => map.iter().copied().max().unwrap_or(0),
+            SampleCounts::Uniform(n) => n,
+            SampleCounts::PerPixel(map) => map.iter().copied().max().unwrap_or(0),
         }
     }
 
@@ -94,14 +94,14 @@ impl Observed<'_> {
     pub(crate) fn critical_values(&self, level: Level) -> impl Fn(usize) -> f64 {
         let table = TTable::new(level, self.largest_count());
         let uniform = match self.counts {
-            Counts::Uniform(n) => Some(table.at(n)),
-            Counts::PerPixel(_) => None,
+            SampleCounts::Uniform(n) => Some(table.at(n)),
+            SampleCounts::PerPixel(_) => None,
         };
         let counts = self.counts;
         move |pixel| match (uniform, counts) {
             (Some(t), _) => t,
-            (None, Counts::PerPixel(map)) => table.at(map[pixel]),
-            (None, Counts::Uniform(n)) => table.at(n),
+            (None, SampleCounts::PerPixel(map)) => table.at(map[pixel]),
+            (None, SampleCounts::Uniform(n)) => table.at(n),
         }
     }
 }

@@ -158,9 +158,9 @@ fn counts_over_pixels_take_anything() {
             mean: &mean,
             variance: &variance,
             counts: if picks.next().is_multiple_of(2) {
-                Counts::Uniform(4)
+                SampleCounts::Uniform(4)
             } else {
-                Counts::PerPixel(&counts)
+                SampleCounts::PerPixel(&counts)
             },
             pixels,
             valid: None,

@@ -9,7 +9,7 @@ mod table;
 use serde::Serialize;
 
 pub use chart::{Axis, Chart, Form, Guide, Look, Panel, Point, Scale, Series, Shape};
-pub use table::{Cell, Column, Forest, Number, RowState, Table, TableRow, Tag, Tone};
+pub use table::{Column, Forest, Number, RowState, Table, TableCell, TableRow, Tag, Tone};
 
 /// Everything that a page shows of a study.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]

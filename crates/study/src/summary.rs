@@ -27,7 +27,7 @@ pub use equal_time::EqualTime;
 pub use estimate::{EstimateBin, EstimateSummary};
 pub use flicker::FlickerSummary;
 pub use interval::{Interval, Source};
-pub use progress::{Missing, Progress};
+pub use progress::{Completion, Missing};
 pub use scene::{ReferenceSummary, SceneSummary};
 pub use verdict::{Agreement, BoundState, Calibration, Status};
 pub use warning::{Warning, WarningKind};
@@ -74,7 +74,7 @@ pub struct Summary {
     pub flicker: Vec<FlickerSummary>,
     /// How far the study got; absent where that is not known, as in summaries of earlier programs.
     #[serde(default)]
-    pub progress: Option<Progress>,
+    pub progress: Option<Completion>,
     /// Whether it was made from a recorded study, which keeps no images.
     #[serde(default)]
     pub recorded: bool,

@@ -22,4 +22,4 @@ pub use halves::{
     Shares, half_variance, mean_of_halves, scaled_sample_variance, shares, smoothed_half_variance,
 };
 pub use percentile::percentile;
-pub use slope::{Slope, squared_slope};
+pub use slope::{SlopeRule, squared_slope};

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 /// How a slope is taken from neighbouring pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Slope {
+pub enum SlopeRule {
     /// Per axis the smaller of both one-sided half-pixel differences, 0 on the border: steep only where both sides are.
     MinHalf,
     /// Per axis half the difference of both neighbours, one-sided on the border.
@@ -14,7 +14,7 @@ pub enum Slope {
 
 /// Squared gradient magnitude per channel, at most `most`.
 #[must_use]
-pub fn squared_slope(image: &Image, rule: Slope, most: f32) -> Image {
+pub fn squared_slope(image: &Image, rule: SlopeRule, most: f32) -> Image {
     let (width, height) = (image.width(), image.height());
     let mut out = Image::new(width, height, image.channels());
     for c in 0..image.channels() {
@@ -36,13 +36,13 @@ pub fn squared_slope(image: &Image, rule: Slope, most: f32) -> Image {
 }
 
 /// Squared slope along one axis.
-fn slope(before: Option<f32>, here: f32, after: Option<f32>, rule: Slope) -> f32 {
+fn slope(before: Option<f32>, here: f32, after: Option<f32>, rule: SlopeRule) -> f32 {
     let square = |d: f32| d * d;
     match (rule, before, after) {
         (_, None, None) => 0.0,
-        (Slope::MinHalf, Some(a), Some(b)) => square(0.5 * (a - here)).min(square(0.5 * (b - here))),
-        (Slope::MinHalf, ..) => 0.0,
-        (Slope::Central, Some(a), Some(b)) => square(0.5 * (b - a)),
-        (Slope::Central, Some(a), None) | (Slope::Central, None, Some(a)) => square(a - here),
+        (SlopeRule::MinHalf, Some(a), Some(b)) => square(0.5 * (a - here)).min(square(0.5 * (b - here))),
+        (SlopeRule::MinHalf, ..) => 0.0,
+        (SlopeRule::Central, Some(a), Some(b)) => square(0.5 * (b - a)),
+        (SlopeRule::Central, Some(a), None) | (SlopeRule::Central, None, Some(a)) => square(a - here),
     }
 }

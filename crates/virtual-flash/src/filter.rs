@@ -5,7 +5,7 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{self, FlashFilterError, FlashInputs, FlashParams, PatchWeights};
 
 use crate::card::ID;
@@ -49,7 +49,7 @@ pub(crate) fn step(
     inputs: &FlashInputs<'_>,
     along: Option<&Along<'_>>,
 ) -> Result<(Image, Option<Image>), DenoiseError> {
-    let (params, level) = (kernel_params(frame, step, patch), Level::best());
+    let (params, level) = (kernel_params(frame, step, patch), InstructionSet::best());
     let mut image = Image::new(frame.width(), frame.height(), 3);
     let Some(along) = along else {
         flash_filter::filter_into(&params, inputs, level, planes_mut(&mut image)).map_err(kernel_error)?;

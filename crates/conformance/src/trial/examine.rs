@@ -64,8 +64,8 @@ fn enclosed(card: &MethodCard, frame: &Frame, output: &Output) -> Result<(), Bro
 /// What intervals are made of; `None` without a variance.
 pub(crate) fn observed(frame: &Frame) -> Option<Observed<'_>> {
     let counts = match frame.samples.total() {
-        Counts::Uniform(n) => noisefloor_stats::Counts::Uniform(*n),
-        Counts::PerPixel(map) => noisefloor_stats::Counts::PerPixel(map),
+        Counts::Uniform(n) => noisefloor_stats::SampleCounts::Uniform(*n),
+        Counts::PerPixel(map) => noisefloor_stats::SampleCounts::PerPixel(map),
     };
     let variance = frame.color.variance.as_ref()?.mean_variance().data();
     let mean = frame.color.mean.data();

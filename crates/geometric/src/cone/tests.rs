@@ -1,5 +1,5 @@
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 
 use super::*;
 use crate::Material;
@@ -134,8 +134,8 @@ fn every_instruction_set_gives_the_same_bits() {
         let guides = guides(&frame, material, true);
         let cone = Cone::new(&frame.color.mean, &radii, &guides, THRESHOLDS, RADIUS_MAX);
         let bits = |image: &Image| image.data().iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-        let portable = bits(&cone.filter_at(Level::Portable));
-        for level in Level::ALL {
+        let portable = bits(&cone.filter_at(InstructionSet::Portable));
+        for level in InstructionSet::ALL {
             assert_eq!(bits(&cone.filter_at(level)), portable, "{level}");
         }
     }

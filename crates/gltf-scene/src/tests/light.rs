@@ -49,7 +49,7 @@ fn a_room_whose_only_lamp_has_a_texture_is_not_black() {
     let scene = load_json(&value).unwrap().scene;
     let prepared = Prepared::new(&scene).unwrap();
     let mut request = RenderRequest::new(&prepared, 16, 16, 4);
-    request.record = Record::color_only();
+    request.record = Recorded::color_only();
     let frame = render(&request, &|_: usize| ControlFlow::Continue(())).unwrap();
     assert!(frame.color.mean.plane(1).iter().all(|v| *v > 0.1));
 }

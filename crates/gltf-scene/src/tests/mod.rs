@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use glam::{Vec2, Vec3};
-use noisefloor_render::{Prepared, Record, RenderRequest, render};
+use noisefloor_render::{Prepared, Recorded, RenderRequest, render};
 use noisefloor_scenes::{Color, Scattering, Sky};
 use serde_json::{Value, json};
 
@@ -160,7 +160,7 @@ fn an_emissive_square_that_fills_the_view_shows_exactly_its_emission() {
     assert!(notices.is_empty(), "{notices:?}");
     let prepared = Prepared::new(&scene).unwrap();
     let mut request = RenderRequest::new(&prepared, 16, 16, 4);
-    request.record = Record::color_only();
+    request.record = Recorded::color_only();
     let frame = render(&request, &|_: usize| ControlFlow::Continue(())).unwrap();
     for (channel, expected) in [2.0, 1.0, 4.0].into_iter().enumerate() {
         assert!(frame.color.mean.plane(channel).iter().all(|v| *v == expected));

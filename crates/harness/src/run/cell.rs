@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use noisefloor_denoiser::{Diagnostic, Input, Unit};
-use noisefloor_frame::{Counts, Finding, Frame, Hygiene, Image, Reference, Rounds};
+use noisefloor_frame::{Counts, Finding, Frame, Hygiene, Image, Reference, RoundsTaken};
 use noisefloor_io::IoError;
 use noisefloor_metrics::{Measurer, MetricError};
 use noisefloor_questions::{self as questions, Cell, Measure, MeasureError};
@@ -159,7 +159,7 @@ impl OnFrame<'_> {
 
 /// How an adaptive frame was rendered.
 fn adaptive(frame: &Frame) -> Option<AdaptiveRecord> {
-    let Rounds { count: rounds, density_seconds } = frame.provenance.rounds?;
+    let RoundsTaken { count: rounds, density_seconds } = frame.provenance.rounds?;
     let counts = frame.samples.total();
     let most = match counts {
         Counts::Uniform(n) => *n,

@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use noisefloor_frame::{Estimate, Frame, PixelFilter, Reference, Sampling};
 use noisefloor_render::{
-    FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Record,
+    FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Recorded,
     RenderRequest, render,
 };
 use serde_json::{Value, json};
@@ -118,7 +118,7 @@ pub(super) fn open(
             filter,
             sampling,
             feature_hit: study.feature_hit,
-            record: Record::Exactly(record.clone()),
+            record: Recorded::Exactly(record.clone()),
             integrator: if maps { shot.integrator } else { Integrator::PathTracing },
             photons: if maps { sample.as_ref() } else { None },
             ..RenderRequest::new(&prepared, PROBE[0], PROBE[1], PROBE_SPP)
@@ -267,7 +267,7 @@ fn content_hash(scene: &noisefloor_scenes::Scene) -> String {
 }
 
 impl Rendered {
-    fn request(&self, spp: u32, seed: u64, sampling: Sampling, record: Record) -> RenderRequest<'_> {
+    fn request(&self, spp: u32, seed: u64, sampling: Sampling, record: Recorded) -> RenderRequest<'_> {
         RenderRequest {
             spp,
             seed,
@@ -328,7 +328,7 @@ impl Rendered {
                 height: PROBE[1],
                 integrator: self.shot.integrator,
                 photons: self.sample.as_ref(),
-                ..self.request(spp, 0, self.sampling, Record::Exactly(self.record.clone()))
+                ..self.request(spp, 0, self.sampling, Recorded::Exactly(self.record.clone()))
             };
             let label = (spp, row.label.as_str());
             match adaptive::render(&request, adaptive, label, row.method.denoiser.adaptive(), &Silent) {
@@ -347,7 +347,7 @@ impl Rendered {
         cache: &Cache,
         observer: &dyn Observer,
     ) -> Result<Frame, HarnessError> {
-        let record = Record::Exactly(self.record.clone());
+        let record = Recorded::Exactly(self.record.clone());
         let request = self.request(spec.samples(), spec.seed, self.sampling, record);
         let make = |request: &RenderRequest<'_>| match (spec.kind, row) {
             (FrameKind::Adaptive(adaptive), Some(row)) => {
@@ -403,7 +403,7 @@ impl Rendered {
                 part: part as u32,
                 parts: self.reference.parts,
             });
-            let mut request = self.request(per_part, *seed, self.reference.sampling, Record::color_only());
+            let mut request = self.request(per_part, *seed, self.reference.sampling, Recorded::color_only());
             let frame = cached(cache, key, observer, || {
                 if self.shot.integrator == Integrator::PhotonMapping && self.shot.maps == Maps::Fixed {
                     request.integrator = Integrator::PhotonMapping;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use noisefloor_frame::{
     Camera, Counts, Estimate, FeatureId, Flash, Frame, Image, Integrator, Maps, PixelFilter, Provenance,
-    Rounds, Samples, Sampling, Variance,
+    RoundsTaken, Samples, Sampling, Variance,
 };
 
 /// Every kind of bit pattern: quiet and signalling NaN with payload, infinities, both zeros, subnormals, ordinary.
@@ -73,7 +73,7 @@ pub fn provenance() -> Provenance {
         integrator: Some("path depth=6".into()),
         light: Some(Integrator::PathTracing),
         photon_maps: Some(Maps::Fixed),
-        rounds: Some(Rounds { count: 4, density_seconds: None }),
+        rounds: Some(RoundsTaken { count: 4, density_seconds: None }),
         sampler: Some("owen-sobol".into()),
         seed: Some(u64::MAX),
         filter: Some(PixelFilter::Point),

@@ -1,6 +1,6 @@
 //! What can be wrong with a call of the flash filter.
 
-use crate::Level;
+use crate::InstructionSet;
 
 /// A parameter or input plane that the flash filter refuses. Found before any work is done.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -68,7 +68,7 @@ pub enum FlashFilterError {
     #[error("instruction set `{level}` is not available on this machine")]
     LevelUnavailable {
         /// The level asked for.
-        level: Level,
+        level: InstructionSet,
     },
     /// A pixel outside the image was asked for.
     #[error("pixel ({x}, {y}) lies outside the image of {width}x{height} pixels")]

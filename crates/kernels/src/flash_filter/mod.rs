@@ -36,7 +36,7 @@ pub use params::{
     MAX_WINDOW_RADIUS, Membership, PatchWeights,
 };
 
-use crate::Level;
+use crate::InstructionSet;
 
 /// Filters with the fastest instruction set of this machine. Returns three planes of width·height values.
 ///
@@ -67,7 +67,14 @@ pub fn filter(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32
     params.check(inputs)?;
     let mut out = [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let [r, g, b] = &mut out;
-    tiled::filter(params, inputs, None, Level::best(), tiled::TILE, [r, g, b].map(Vec::as_mut_slice));
+    tiled::filter(
+        params,
+        inputs,
+        None,
+        InstructionSet::best(),
+        tiled::TILE,
+        [r, g, b].map(Vec::as_mut_slice),
+    );
     Ok(out)
 }
 
@@ -104,7 +111,7 @@ pub fn filter_carrying(
     let planes = || [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let mut out = Filtered { image: planes(), carried: planes() };
     let all = out.image.iter_mut().chain(&mut out.carried).map(Vec::as_mut_slice);
-    tiled::filter(params, inputs, Some(carried), Level::best(), tiled::TILE, all);
+    tiled::filter(params, inputs, Some(carried), InstructionSet::best(), tiled::TILE, all);
     Ok(out)
 }
 
@@ -117,7 +124,7 @@ pub fn filter_carrying_into(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
     carried: &Carried<'_>,
-    level: Level,
+    level: InstructionSet,
     [image, sums]: [[&mut [f32]; 3]; 2],
 ) -> Result<(), FlashFilterError> {
     params.check(inputs)?;
@@ -135,7 +142,7 @@ pub fn filter_carrying_into(
 pub fn filter_into(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
-    level: Level,
+    level: InstructionSet,
     out: [&mut [f32]; 3],
 ) -> Result<(), FlashFilterError> {
     params.check(inputs)?;
@@ -146,7 +153,7 @@ pub fn filter_into(
 
 pub(crate) fn check_output(
     params: &FlashParams,
-    level: Level,
+    level: InstructionSet,
     out: &[&mut [f32]; 3],
 ) -> Result<(), FlashFilterError> {
     if !level.is_available() {

@@ -5,7 +5,7 @@ use super::layout::{BLOCK, Layout};
 use super::members::{EVERYTHING, Tests, half_width};
 use super::params::MAX_PATCH_RADIUS;
 use super::{Carried, FlashInputs, FlashParams};
-use crate::Level;
+use crate::InstructionSet;
 use crate::grid::Grid;
 use crate::mirror::mirror;
 use crate::simd::Portable;
@@ -26,7 +26,7 @@ struct Job<'a> {
     inputs: &'a FlashInputs<'a>,
     tests: Tests<'a>,
     layout: Layout,
-    level: Level,
+    level: InstructionSet,
     rule: usize,
     taps: [f32; MAX_PATCH_RADIUS + 1],
     carried: Option<&'a Carried<'a>>,
@@ -41,7 +41,7 @@ pub(crate) fn filter<'o>(
     params: &FlashParams,
     inputs: &FlashInputs<'_>,
     carried: Option<&Carried<'_>>,
-    level: Level,
+    level: InstructionSet,
     tile_size: (usize, usize),
     out: impl IntoIterator<Item = &'o mut [f32]>,
 ) {
@@ -277,9 +277,9 @@ impl Job<'_> {
         unsafe {
             match self.level {
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => pass_avx512(view, block, self.rule),
+                InstructionSet::Avx512 => pass_avx512(view, block, self.rule),
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => pass_avx2(view, block, self.rule),
+                InstructionSet::Avx2 => pass_avx2(view, block, self.rule),
                 _ => hot::pass::<Portable>(view, block, self.rule),
             }
         }

@@ -1,6 +1,6 @@
 //! What can be wrong with a call of the non-local means engine.
 
-use crate::Level;
+use crate::InstructionSet;
 
 /// A parameter or input plane that the engine refuses. Found before any work is done.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -74,6 +74,6 @@ pub enum NlmError {
     #[error("instruction set `{level}` is not available on this machine")]
     LevelUnavailable {
         /// The level asked for.
-        level: Level,
+        level: InstructionSet,
     },
 }

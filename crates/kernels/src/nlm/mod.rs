@@ -38,7 +38,7 @@ pub use params::{
     Perturbation, Planes, Rule,
 };
 
-use crate::Level;
+use crate::InstructionSet;
 
 /// Filters with the fastest instruction set of this machine: for each pass all targets.
 ///
@@ -65,7 +65,7 @@ pub fn filter(
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
 ) -> Result<Vec<Filtered>, NlmError> {
-    filter_at(params, passes, inputs, Level::best())
+    filter_at(params, passes, inputs, InstructionSet::best())
 }
 
 /// Filters with a given instruction set. Every level gives the same bits.
@@ -76,7 +76,7 @@ pub fn filter_at(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-    level: Level,
+    level: InstructionSet,
 ) -> Result<Vec<Filtered>, NlmError> {
     params.check(passes, inputs)?;
     if !level.is_available() {

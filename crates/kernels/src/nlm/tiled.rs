@@ -6,7 +6,7 @@ use super::naive::LARGEST as LARGEST_SQUARE;
 use super::params::{
     Center, Denominator, Filtered, GuideDenominator, NlmInputs, NlmParams, Pass, Planes, Rule,
 };
-use crate::Level;
+use crate::InstructionSet;
 use crate::grid::Grid;
 use crate::mirror::mirror;
 use crate::simd::Portable;
@@ -23,7 +23,7 @@ struct Job<'a> {
     inputs: &'a NlmInputs<'a>,
     passes: Vec<HotPass>,
     layout: Layout,
-    level: Level,
+    level: InstructionSet,
     constants: Constants,
     /// Horizontal offsets per block.
     group: usize,
@@ -35,7 +35,7 @@ pub(crate) fn filter(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-    level: Level,
+    level: InstructionSet,
     tile_size: (usize, usize),
 ) -> Vec<Filtered> {
     let mut out = Vec::with_capacity(passes.len());
@@ -81,7 +81,7 @@ fn sweep(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-    level: Level,
+    level: InstructionSet,
     tile_size: (usize, usize),
 ) -> Vec<Filtered> {
     let layout = Layout::new(tile_size, params.window_radius, patches(passes), inputs);
@@ -349,9 +349,9 @@ impl Job<'_> {
         unsafe {
             match self.level {
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => pass_avx512(view, block, self.group),
+                InstructionSet::Avx512 => pass_avx512(view, block, self.group),
                 #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => pass_avx2(view, block, self.group),
+                InstructionSet::Avx2 => pass_avx2(view, block, self.group),
                 _ => hot::pass::<Portable>(view, block, self.group),
             }
         }

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Table};
+use noisefloor_study::exhibit::{Table, TableCell};
 use noisefloor_study::format;
 use noisefloor_study::summary::{BoundSummary, SceneSummary};
 
@@ -24,14 +24,14 @@ fn table(chosen: &Chosen<'_>, scene: &SceneSummary, promises: &Promises<'_>) -> 
     let first = std::iter::once("samples per pixel".to_owned());
     let mut out = headed(format!("bounds-{}", scene.id), first.chain(names));
     for (k, spp) in promises.spp.iter().enumerate().filter(|(_, spp)| chosen.spp.contains(spp)) {
-        let cells = claims.iter().map(|claim| claim.found[k].map_or_else(Cell::none, rate));
-        push(&mut out, std::iter::once(Cell::count((*spp).into())).chain(cells).collect());
+        let cells = claims.iter().map(|claim| claim.found[k].map_or_else(TableCell::none, rate));
+        push(&mut out, std::iter::once(TableCell::count((*spp).into())).chain(cells).collect());
     }
     out
 }
 
-fn rate(b: &BoundSummary) -> Cell {
+fn rate(b: &BoundSummary) -> TableCell {
     let mark = if b.mark.is_some() { " \\*" } else { "" };
     let rate = format::percent_interval(&b.violations).value;
-    Cell::text(format!("{rate}{mark} {}", b.verdict)).number((&b.violations).into())
+    TableCell::text(format!("{rate}{mark} {}", b.verdict)).number((&b.violations).into())
 }

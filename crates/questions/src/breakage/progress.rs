@@ -4,16 +4,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_study::context::{Context, PlannedScene};
 use noisefloor_study::record::Record;
-use noisefloor_study::summary::{Missing, Progress};
+use noisefloor_study::summary::{Completion, Missing};
 use noisefloor_study::{SceneSource, Study};
 
 /// Planned and finished cells; `None` where the plan is not known: frames of a folder whose list was not kept.
-pub(super) fn progress(study: &Study, context: &Context, records: &[Record]) -> Option<Progress> {
+pub(super) fn progress(study: &Study, context: &Context, records: &[Record]) -> Option<Completion> {
     let plan = planned(study, context)?;
     let rows: Vec<&str> = study.methods.iter().map(|row| row.label.as_str()).collect();
     let ended: BTreeSet<(&str, u32, &str, u32)> =
         records.iter().map(|r| (r.scene.as_str(), r.spp, r.label.as_str(), r.replicate)).collect();
-    let mut out = Progress::default();
+    let mut out = Completion::default();
     for scene in &plan {
         let levels = scene.replicates.values().map(|n| u64::from(*n) * rows.len() as u64);
         let cells: u64 = levels.sum();

@@ -1,6 +1,6 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Cell, Column, Number, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Number, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::PairResult;
 
@@ -27,7 +27,7 @@ pub(crate) fn pairs(view: &View<'_>, (scene, name): (&str, &str), spp: u32) -> O
 
 fn row(view: &View<'_>, p: &PairResult) -> TableRow {
     let show = |v: f64| if p.is_ratio { format::ratio(v) } else { format::significant(v, 3) };
-    let effect = Cell::text(show(p.effect.value))
+    let effect = TableCell::text(show(p.effect.value))
         .aside(format::bracket(&p.effect, show))
         .number(Number::from(&p.effect));
     let tiny = p.p_adjusted < 1e-4;
@@ -37,7 +37,7 @@ fn row(view: &View<'_>, p: &PairResult) -> TableRow {
         view.row_cell(&p.a),
         view.row_cell(&p.b),
         crate::shown::effect(effect, p.is_ratio),
-        Cell::text(probability).number(Number::exact(p.p_adjusted)),
-        Cell::text(words),
+        TableCell::text(probability).number(Number::exact(p.p_adjusted)),
+        TableCell::text(words),
     ])
 }

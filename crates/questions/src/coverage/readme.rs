@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Table};
+use noisefloor_study::exhibit::{Table, TableCell};
 use noisefloor_study::format;
 use noisefloor_study::summary::SceneSummary;
 
@@ -20,7 +20,7 @@ fn table(chosen: &Chosen<'_>, scene: &SceneSummary, covered: &Covered<'_>) -> Ta
         covered.rows.iter().filter(|(class, spp, _)| *class == "all" && chosen.spp.contains(spp))
     {
         let cells = cells.iter().map(plain);
-        push(&mut out, std::iter::once(Cell::count((*spp).into())).chain(cells).collect());
+        push(&mut out, std::iter::once(TableCell::count((*spp).into())).chain(cells).collect());
     }
     out
 }

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Exhibit, Part, Table, TableCell, TableRow};
 use noisefloor_study::summary::{MethodSummary, MetricInfo, SceneSummary};
 
 use super::facts;
@@ -40,10 +40,10 @@ fn metrics(metrics: &[MetricInfo]) -> Table {
     let row = |m: &MetricInfo| {
         let unit = if m.unit.is_empty() { String::new() } else { format!(" ({})", m.unit) };
         TableRow::new(vec![
-            Cell::text(&m.name).aside(&m.id),
-            Cell::text(format!("{}{unit}", m.formula)),
-            Cell::text(better(m)),
-            Cell::text(if m.reference_noise_removed { "taken out" } else { "not corrected" }),
+            TableCell::text(&m.name).aside(&m.id),
+            TableCell::text(format!("{}{unit}", m.formula)),
+            TableCell::text(better(m)),
+            TableCell::text(if m.reference_noise_removed { "taken out" } else { "not corrected" }),
         ])
     };
     Table {

@@ -1,6 +1,6 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Number, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::EqualTime;
 
@@ -26,11 +26,11 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     ];
     let row = |e: &EqualTime| {
         TableRow::new(vec![
-            Cell::text(&e.scene),
-            Cell::count(e.spp.into()),
+            TableCell::text(&e.scene),
+            TableCell::count(e.spp.into()),
             view.row_cell(&e.label),
             view.row_cell(&e.with),
-            Cell::count(e.used.into()),
+            TableCell::count(e.used.into()),
             implied(e),
             milliseconds(Some(e.denoise_seconds)),
             milliseconds(e.seconds_per_sample),
@@ -47,12 +47,13 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 /// Samples per pixel that the times of this run would buy.
-pub(super) fn implied(e: &EqualTime) -> Cell {
-    e.implied.map_or_else(Cell::none, |n| Cell::text(format::significant(n, 3)).number(Number::exact(n)))
+pub(super) fn implied(e: &EqualTime) -> TableCell {
+    e.implied
+        .map_or_else(TableCell::none, |n| TableCell::text(format::significant(n, 3)).number(Number::exact(n)))
 }
 
 /// A time in one unit for the whole table, so that its rows can be divided by each other in the head.
-pub(super) fn milliseconds(seconds: Option<f64>) -> Cell {
+pub(super) fn milliseconds(seconds: Option<f64>) -> TableCell {
     let text = |s: f64| format!("{} ms", format::significant(1000.0 * s, 3));
-    seconds.map_or_else(Cell::none, |s| Cell::text(text(s)).number(Number::exact(s)))
+    seconds.map_or_else(TableCell::none, |s| TableCell::text(text(s)).number(Number::exact(s)))
 }

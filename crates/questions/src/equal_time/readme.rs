@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::Cell;
+use noisefloor_study::exhibit::TableCell;
 
 use super::exhibit::{implied, milliseconds};
 use crate::readme::{Block, Chosen, Kind, headed_by, push};
@@ -19,11 +19,11 @@ fn equal_time(chosen: &Chosen<'_>) -> Vec<Block> {
     let mut out = headed_by("equal-time", &heads);
     for e in &chosen.view.summary.equal_time {
         let cells = vec![
-            Cell::text(&e.scene),
-            Cell::text(&e.label),
-            Cell::text(&e.with),
-            Cell::count(e.spp.into()),
-            Cell::count(e.used.into()),
+            TableCell::text(&e.scene),
+            TableCell::text(&e.label),
+            TableCell::text(&e.with),
+            TableCell::count(e.spp.into()),
+            TableCell::count(e.used.into()),
             implied(e),
             milliseconds(Some(e.denoise_seconds)),
             milliseconds(e.seconds_per_sample),

@@ -1,6 +1,6 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Number, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::FlickerSummary;
 
@@ -29,7 +29,7 @@ fn tables(view: &View<'_>) -> Vec<Table> {
     let mut out: Vec<(&str, Table)> = Vec::new();
     for f in &view.summary.flicker {
         let cells = vec![
-            Cell::count(f.spp.into()),
+            TableCell::count(f.spp.into()),
             view.row_cell(&f.label),
             shown::value(&f.variance),
             ratio(f).about(format!("Over that of {}", f.first)),
@@ -70,10 +70,10 @@ fn empty(f: &FlickerSummary) -> Table {
 }
 
 /// The variance over that of the first row.
-pub(super) fn ratio(f: &FlickerSummary) -> Cell {
+pub(super) fn ratio(f: &FlickerSummary) -> TableCell {
     match &f.ratio_to_first {
         Some(ratio) => shown::value(ratio),
-        None if f.first == f.label => Cell::text("1").number(Number::exact(1.0)),
-        None => Cell::none(),
+        None if f.first == f.label => TableCell::text("1").number(Number::exact(1.0)),
+        None => TableCell::none(),
     }
 }

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::Cell;
+use noisefloor_study::exhibit::TableCell;
 
 use super::exhibit::ratio;
 use crate::readme::{Block, Chosen, Kind, code, headed_by, plain, push};
@@ -26,8 +26,8 @@ fn flicker(chosen: &Chosen<'_>) -> Vec<Block> {
     }
     for f in sequences.into_iter().flat_map(|name| all.iter().filter(move |f| f.sequence == name)) {
         let cells = vec![
-            Cell::text(&f.sequence),
-            Cell::count(f.spp.into()),
+            TableCell::text(&f.sequence),
+            TableCell::count(f.spp.into()),
             code(&f.label),
             plain(&shown::value(&f.variance)),
             plain(&ratio(f)),

@@ -1,6 +1,6 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Number, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::Interval;
 
@@ -48,16 +48,16 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 fn row(view: &View<'_>, f: &Finding) -> TableRow {
     let percent = |i: &Interval| {
         let shown = format::percent_interval(i);
-        Cell::text(shown.value).aside(shown.spread).number(Number::from(i))
+        TableCell::text(shown.value).aside(shown.spread).number(Number::from(i))
     };
     // What growth adds can be more than all there was.
     let share = |i: &Interval| {
-        Cell::text(format::percent(i.value))
+        TableCell::text(format::percent(i.value))
             .aside(format::bracket(i, format::percent))
             .number(Number::from(i))
     };
     TableRow::new(vec![
-        Cell::count(f.spp.into()),
+        TableCell::count(f.spp.into()),
         view.row_cell(&f.label),
         percent(&f.grew),
         percent(&f.surely),

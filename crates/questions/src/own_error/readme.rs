@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Table};
+use noisefloor_study::exhibit::{Table, TableCell};
 use noisefloor_study::summary::SceneSummary;
 
 use super::exhibit::effect;
@@ -23,12 +23,12 @@ fn table(chosen: &Chosen<'_>, scene: &SceneSummary) -> Table {
     });
     for e in here {
         let cells = vec![
-            Cell::count(e.spp.into()),
+            TableCell::count(e.spp.into()),
             code(&e.label),
             plain(&shown::value(&e.estimated)),
             plain(&shown::value(&e.measured)),
             plain(&effect(e)),
-            Cell::text(e.verdict.name()),
+            TableCell::text(e.verdict.name()),
         ];
         push(&mut out, cells);
     }

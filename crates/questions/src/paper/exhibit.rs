@@ -1,6 +1,6 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Number, Part, Table, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::{Agreement, PaperResult};
 
@@ -39,25 +39,25 @@ fn row(view: &View<'_>, r: &PaperResult) -> TableRow {
     let metric = view.metric_name(&r.metric);
     let details = format!("{metric} of {} over {metric} of {}", r.row, r.over);
     TableRow::new(vec![
-        Cell::text(&r.what).about(details),
-        Cell::text(view.scene_title(&r.scene)),
-        Cell::count(r.spp.into()),
+        TableCell::text(&r.what).about(details),
+        TableCell::text(view.scene_title(&r.scene)),
+        TableCell::count(r.spp.into()),
         ours(r),
         theirs(r),
-        Cell::text(&r.source),
-        Cell::text(r.verdict.name()).tone(tone(r.verdict)).aside(r.reason.clone().unwrap_or_default()),
+        TableCell::text(&r.source),
+        TableCell::text(r.verdict.name()).tone(tone(r.verdict)).aside(r.reason.clone().unwrap_or_default()),
     ])
 }
 
 /// Our ratio.
-pub(super) fn ours(r: &PaperResult) -> Cell {
-    r.ours.as_ref().map_or_else(Cell::none, shown::value)
+pub(super) fn ours(r: &PaperResult) -> TableCell {
+    r.ours.as_ref().map_or_else(TableCell::none, shown::value)
 }
 
 /// The source's ratio; a range is no single number.
-pub(super) fn theirs(r: &PaperResult) -> Cell {
+pub(super) fn theirs(r: &PaperResult) -> TableCell {
     let [low, high] = r.paper;
-    Cell { number: (low == high).then(|| Number::exact(low)), ..Cell::text(range(r.paper)) }
+    TableCell { number: (low == high).then(|| Number::exact(low)), ..TableCell::text(range(r.paper)) }
 }
 
 fn tone(verdict: Agreement) -> Tone {

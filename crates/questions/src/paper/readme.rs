@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::Cell;
+use noisefloor_study::exhibit::TableCell;
 
 use super::exhibit::{ours, theirs};
 use crate::readme::{Block, Chosen, Kind, headed_by, plain, push};
@@ -15,12 +15,12 @@ fn paper(chosen: &Chosen<'_>) -> Vec<Block> {
         };
         let theirs = theirs(result);
         let cells = vec![
-            Cell::text(&result.what),
-            Cell::text(chosen.view.scene_title(&result.scene)),
-            Cell::count(result.spp.into()),
+            TableCell::text(&result.what),
+            TableCell::text(chosen.view.scene_title(&result.scene)),
+            TableCell::count(result.spp.into()),
             plain(&ours(result)),
-            Cell { text: format!("{} ({})", theirs.text, result.source), ..theirs },
-            Cell::text(words),
+            TableCell { text: format!("{} ({})", theirs.text, result.source), ..theirs },
+            TableCell::text(words),
         ];
         push(&mut out, cells);
     }

@@ -1,6 +1,6 @@
 //! Kinds of tables, and what makes them.
 
-use noisefloor_study::exhibit::{Cell, Column, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Table, TableCell, TableRow};
 
 use super::asked::Block;
 use super::chosen::Chosen;
@@ -33,18 +33,18 @@ pub(crate) fn headed_by(id: &str, heads: &[&str]) -> Table {
 }
 
 /// Adds a row.
-pub(crate) fn push(table: &mut Table, cells: Vec<Cell>) {
+pub(crate) fn push(table: &mut Table, cells: Vec<TableCell>) {
     table.rows.push(TableRow::new(cells));
 }
 
 /// A cell of a page as one text. A star in Markdown text is one that is not obeyed.
-pub(crate) fn plain(cell: &Cell) -> Cell {
+pub(crate) fn plain(cell: &TableCell) -> TableCell {
     let text = format!("{} {}", cell.text, cell.aside);
     let text = text.trim_end().replace(" *", " \\*");
-    Cell { number: cell.number, ..Cell::text(text) }
+    TableCell { number: cell.number, ..TableCell::text(text) }
 }
 
 /// The name of a row or a parameter.
-pub(crate) fn code(name: &str) -> Cell {
-    Cell::text(format!("`{name}`"))
+pub(crate) fn code(name: &str) -> TableCell {
+    TableCell::text(format!("`{name}`"))
 }

@@ -228,7 +228,7 @@ pub fn summary(titles: &[(&str, &str)], rows: &[Row], size: (u32, u32)) -> Summa
         equal_time: Vec::new(),
         flicker: SPP.iter().flat_map(|&n| rows.iter().map(move |r| flicker(n, r, &rows[0]))).collect(),
         paper: per_level().map(|(id, n)| paper(id, n, rows)).collect(),
-        progress: Some(Progress { planned: 96, finished: 96, missing: Vec::new() }),
+        progress: Some(Completion { planned: 96, finished: 96, missing: Vec::new() }),
         recorded: false,
         findings: Vec::new(),
         warnings: vec![Warning::new(

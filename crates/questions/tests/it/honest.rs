@@ -3,7 +3,7 @@
 use noisefloor_frame::{Finding, FindingKind};
 use noisefloor_questions::document;
 use noisefloor_study::exhibit::{RowState, Tone};
-use noisefloor_study::summary::{Missing, Progress, Warning, WarningKind};
+use noisefloor_study::summary::{Completion, Missing, Warning, WarningKind};
 
 use crate::fixture::{SPP, study};
 use crate::look::{row, table, tags, texts, told};
@@ -24,7 +24,7 @@ fn an_unfinished_study_is_marked_and_calls_nothing_best() {
         replicates: Vec::new(),
         cells: 48,
     };
-    study.progress = Some(Progress { planned: 96, finished: 48, missing: vec![missing] });
+    study.progress = Some(Completion { planned: 96, finished: 48, missing: vec![missing] });
     let shown = document(&study);
     let texts = texts(&shown);
     for text in [
@@ -56,7 +56,7 @@ fn a_level_with_missing_cells_has_a_first_so_far_and_no_best() {
         replicates: vec![3],
         cells: 3,
     };
-    study.progress = Some(Progress { planned: 96, finished: 93, missing: vec![missing] });
+    study.progress = Some(Completion { planned: 96, finished: 93, missing: vec![missing] });
     for cell in study.cells.iter_mut().filter(|cell| cell.scene == "rings" && cell.spp == 16) {
         cell.replicates = 3;
     }

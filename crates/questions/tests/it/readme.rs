@@ -18,7 +18,7 @@ fn made(kind: &str, keys: &[(&str, &str)]) -> Vec<String> {
         Block::Text(text) => text.lines().map(str::to_owned).collect::<Vec<_>>(),
         Block::Table(table) => {
             let heads = table.columns.iter().map(|column| column.head.clone()).collect::<Vec<_>>();
-            let cells = |cells: &[noisefloor_study::exhibit::Cell]| -> Vec<String> {
+            let cells = |cells: &[noisefloor_study::exhibit::TableCell]| -> Vec<String> {
                 cells.iter().map(|cell| cell.text.clone()).collect()
             };
             let rows = table.rows.iter().map(|row| cells(&row.cells).join(" | "));

@@ -1,7 +1,7 @@
 //! Tables: texts for people, numbers for programs.
 
 use noisefloor_questions::document;
-use noisefloor_study::exhibit::{Cell, RowState, Tone};
+use noisefloor_study::exhibit::{RowState, TableCell, Tone};
 use noisefloor_study::summary::Interval;
 
 use crate::fixture::{metric, study};
@@ -92,7 +92,7 @@ fn trimmed_and_whole_values_are_marked_as_not_comparable() {
 #[test]
 fn a_cell_with_digits_carries_the_number_behind_them() {
     let shown = document(&study());
-    let of_numbers = |cell: &&Cell| {
+    let of_numbers = |cell: &&TableCell| {
         let first = cell.text.trim_start_matches(['−', '<', ' ']).chars().next();
         first.is_some_and(|c| c.is_ascii_digit())
     };

@@ -1,6 +1,6 @@
 //! Comma-separated values for programs: numbers unrounded, texts whole.
 
-use noisefloor_study::exhibit::{Cell, Number, Table};
+use noisefloor_study::exhibit::{Number, Table, TableCell};
 
 use super::text::{one_line, says_nothing};
 
@@ -9,7 +9,7 @@ pub(super) fn csv(table: &Table) -> String {
     let width = table.rows.iter().map(|row| row.cells.len()).max().unwrap_or(0).max(table.columns.len());
     let mut columns: Vec<(String, Vec<String>)> = Vec::new();
     for at in 0..width {
-        let cells: Vec<Option<&Cell>> = table.rows.iter().map(|row| row.cells.get(at)).collect();
+        let cells: Vec<Option<&TableCell>> = table.rows.iter().map(|row| row.cells.get(at)).collect();
         columns.extend(fields(&head(table, at), &unit(table, at), &cells));
     }
     make_unique(&mut columns);
@@ -31,8 +31,8 @@ fn unit(table: &Table, at: usize) -> String {
 }
 
 /// The fields of a column: a number with what belongs to it, or a text.
-fn fields(head: &str, unit: &str, cells: &[Option<&Cell>]) -> Vec<(String, Vec<String>)> {
-    let of = |field: &dyn Fn(&Cell) -> String| -> Vec<String> {
+fn fields(head: &str, unit: &str, cells: &[Option<&TableCell>]) -> Vec<(String, Vec<String>)> {
+    let of = |field: &dyn Fn(&TableCell) -> String| -> Vec<String> {
         cells.iter().map(|cell| cell.map_or_else(String::new, field)).collect()
     };
     let mut out = Vec::new();
@@ -42,7 +42,7 @@ fn fields(head: &str, unit: &str, cells: &[Option<&Cell>]) -> Vec<(String, Vec<S
         }
     };
     let number = |pick: fn(&Number) -> Option<f64>| {
-        move |cell: &Cell| cell.number.as_ref().and_then(pick).map_or_else(String::new, plain)
+        move |cell: &TableCell| cell.number.as_ref().and_then(pick).map_or_else(String::new, plain)
     };
     if cells.iter().flatten().any(|cell| cell.number.is_some()) {
         add(format!("{head}{unit}"), of(&number(|n| Some(n.value))), true);
@@ -50,7 +50,7 @@ fn fields(head: &str, unit: &str, cells: &[Option<&Cell>]) -> Vec<(String, Vec<S
         add(format!("{head} high{unit}"), of(&number(|n| n.high)), false);
         add(format!("{head} below{unit}"), of(&number(|n| n.below)), false);
         // Words where other rows have a number.
-        let word = |cell: &Cell| match cell.number {
+        let word = |cell: &TableCell| match cell.number {
             None if !says_nothing(&cell.text) => cell.text.clone(),
             _ => String::new(),
         };
@@ -60,13 +60,13 @@ fn fields(head: &str, unit: &str, cells: &[Option<&Cell>]) -> Vec<(String, Vec<S
         add(head.to_owned(), of(&|cell| cell.text.clone()), true);
         add(format!("{head} aside"), of(&|cell| cell.aside.clone()), false);
     }
-    let tag = |cell: &Cell| cell.tag.as_ref().map_or_else(String::new, |tag| tag.word.clone());
+    let tag = |cell: &TableCell| cell.tag.as_ref().map_or_else(String::new, |tag| tag.word.clone());
     add(format!("{head} tag"), of(&tag), false);
     out
 }
 
 /// What stands beside a number and is no rounded copy of its interval.
-fn remark(cell: &Cell) -> String {
+fn remark(cell: &TableCell) -> String {
     let interval = cell.number.is_some_and(|n| n.low.is_some() || n.high.is_some());
     let words = cell.aside.chars().any(char::is_alphabetic);
     if interval && !words { String::new() } else { cell.aside.clone() }
@@ -109,21 +109,23 @@ mod tests {
 
     use super::*;
 
-    fn table(columns: Vec<Column>, rows: Vec<Vec<Cell>>) -> Table {
+    fn table(columns: Vec<Column>, rows: Vec<Vec<TableCell>>) -> Table {
         let rows = rows.into_iter().map(TableRow::new).collect();
         Table { id: "t".into(), columns, rows, ..Table::default() }
     }
 
-    fn measured(value: f64, low: f64, high: f64) -> Cell {
+    fn measured(value: f64, low: f64, high: f64) -> TableCell {
         let number = Number { low: Some(low), high: Some(high), ..Number::exact(value) };
-        Cell::text("rounded").aside("± 0.1").number(number)
+        TableCell::text("rounded").aside("± 0.1").number(number)
     }
 
     #[test]
     fn numbers_keep_all_digits_and_have_their_ends_beside_them() {
         let columns = vec![Column::text("Row"), Column::number("Time").unit("s")];
-        let rows =
-            vec![vec![Cell::text("mc"), measured(1.0 / 3.0, 1e-7, 2.5)], vec![Cell::text("b"), Cell::none()]];
+        let rows = vec![
+            vec![TableCell::text("mc"), measured(1.0 / 3.0, 1e-7, 2.5)],
+            vec![TableCell::text("b"), TableCell::none()],
+        ];
         let expected = "Row,Time [s],Time low [s],Time high [s]\r\n\
                         mc,0.3333333333333333,1e-7,2.5\r\n\
                         b,,,\r\n";
@@ -133,7 +135,7 @@ mod tests {
     #[test]
     fn nasty_texts_are_quoted_by_the_rule() {
         let columns = vec![Column::text("a,b"), Column::text("say \"x\"")];
-        let rows = vec![vec![Cell::text("one\ntwo"), Cell::text(" edge ")]];
+        let rows = vec![vec![TableCell::text("one\ntwo"), TableCell::text(" edge ")]];
         assert_eq!(csv(&table(columns, rows)), "\"a,b\",\"say \"\"x\"\"\"\r\n\"one\ntwo\",\" edge \"\r\n");
     }
 
@@ -142,11 +144,11 @@ mod tests {
         let columns = vec![Column::text("Row"), Column::number("Error")];
         let floor = Number { below: Some(0.5), ..Number::exact(-0.1) };
         let rows = vec![
-            vec![Cell::text("mc"), measured(1.0, 0.5, 2.0).tag("best", Tone::Good, "")],
-            vec![Cell::text("b"), Cell::text("< 0.5").number(floor)],
-            vec![Cell::text("c"), Cell::text("needs albedo")],
-            vec![Cell::text("d"), measured(2.0, 1.0, 3.0).aside("over 3 of 9 pixels")],
-            vec![Cell::text("e")],
+            vec![TableCell::text("mc"), measured(1.0, 0.5, 2.0).tag("best", Tone::Good, "")],
+            vec![TableCell::text("b"), TableCell::text("< 0.5").number(floor)],
+            vec![TableCell::text("c"), TableCell::text("needs albedo")],
+            vec![TableCell::text("d"), measured(2.0, 1.0, 3.0).aside("over 3 of 9 pixels")],
+            vec![TableCell::text("e")],
         ];
         let made = csv(&table(columns, rows));
         let lines: Vec<&str> = made.lines().collect();
@@ -161,7 +163,12 @@ mod tests {
     #[test]
     fn every_field_has_a_head_of_its_own() {
         let columns = vec![Column::text("a"), Column::text("a"), Column::text("")];
-        let rows = vec![vec![Cell::text("1"), Cell::text("2"), Cell::text("3"), Cell::text("4")]];
+        let rows = vec![vec![
+            TableCell::text("1"),
+            TableCell::text("2"),
+            TableCell::text("3"),
+            TableCell::text("4"),
+        ]];
         assert_eq!(csv(&table(columns, rows)), "a,a (2),column 3,column 4\r\n1,2,3,4\r\n");
         assert_eq!(csv(&Table::default()), "\r\n");
     }

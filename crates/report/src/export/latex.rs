@@ -147,7 +147,7 @@ fn command(c: char) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use noisefloor_study::exhibit::{Cell, TableRow};
+    use noisefloor_study::exhibit::{TableCell, TableRow};
 
     use super::*;
 
@@ -173,8 +173,12 @@ mod tests {
             caption: "two\nlines".into(),
             columns: vec![Column::text("Row"), Column::number("x"), Column::text("why & how")],
             rows: vec![
-                TableRow::new(vec![Cell::text("a"), Cell::count(3), Cell::text("w".repeat(50))]),
-                TableRow::new(vec![Cell::text("b"), Cell::text("skipped: no_albedo")]),
+                TableRow::new(vec![
+                    TableCell::text("a"),
+                    TableCell::count(3),
+                    TableCell::text("w".repeat(50)),
+                ]),
+                TableRow::new(vec![TableCell::text("b"), TableCell::text("skipped: no_albedo")]),
             ],
             notes: vec![],
         };

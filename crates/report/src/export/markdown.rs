@@ -1,6 +1,6 @@
 //! Pipe tables for READMEs.
 
-use noisefloor_study::exhibit::{Cell, Table};
+use noisefloor_study::exhibit::{Table, TableCell};
 
 use super::text::{one_line, shown};
 
@@ -41,7 +41,7 @@ fn line(cells: impl Iterator<Item = String>) -> String {
 }
 
 /// The label of a row as code, and what follows it as text.
-fn coded(cell: &Cell, text: &str) -> String {
+fn coded(cell: &TableCell, text: &str) -> String {
     let label = one_line(&cell.text);
     let rest = text.strip_prefix(label.as_str()).unwrap_or_default();
     let fence = if label.contains('`') { "``" } else { "`" };
@@ -76,11 +76,11 @@ mod tests {
             columns: vec![Column::text("Row"), Column::number("a|b"), Column::text("Why")],
             rows: vec![
                 TableRow::new(vec![
-                    Cell::row("x|y", 0).aside("(guarded)"),
-                    Cell::text("0.1").aside("± 0.01").tag("best", Tone::Good, ""),
-                    Cell::text("<script>\nand < 3 *"),
+                    TableCell::row("x|y", 0).aside("(guarded)"),
+                    TableCell::text("0.1").aside("± 0.01").tag("best", Tone::Good, ""),
+                    TableCell::text("<script>\nand < 3 *"),
                 ]),
-                TableRow::new(vec![Cell::text("short")]),
+                TableRow::new(vec![TableCell::text("short")]),
             ],
             notes: vec!["* a note".into()],
         }

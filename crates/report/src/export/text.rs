@@ -14,7 +14,7 @@ pub(super) fn one_line(text: &str) -> String {
 
 /// Rows of texts as a reader sees them, as many as there are columns, each cell with its remark and word.
 pub(super) fn shown(table: &Table) -> Vec<Vec<String>> {
-    let cell = |cell: &noisefloor_study::exhibit::Cell| {
+    let cell = |cell: &noisefloor_study::exhibit::TableCell| {
         let tag = cell.tag.as_ref().map_or("", |tag| tag.word.as_str());
         let parts = [cell.text.as_str(), cell.aside.as_str(), tag];
         one_line(&parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(" "))

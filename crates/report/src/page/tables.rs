@@ -1,6 +1,6 @@
 //! A table as the template reads it.
 
-use noisefloor_study::exhibit::{Cell, Column, Forest, RowState, Table, TableRow, Tag, Tone};
+use noisefloor_study::exhibit::{Column, Forest, RowState, Table, TableCell, TableRow, Tag, Tone};
 use serde::Serialize;
 
 /// A column of texts with one longer than this holds sentences.
@@ -72,7 +72,7 @@ impl Kind {
         // A text that spans the rest of its row says nothing about the column that it begins in.
         let whole = |row: &&TableRow| row.cells.len() > at + 1 || row.cells.len() >= table.columns.len();
         let cells = || table.rows.iter().filter(whole).filter_map(|row| row.cells.get(at));
-        let letters = |cell: &Cell| cell.text.chars().count() + cell.aside.chars().count();
+        let letters = |cell: &TableCell| cell.text.chars().count() + cell.aside.chars().count();
         let column = table.columns.get(at);
         let is = |of: fn(&Column) -> bool| column.is_some_and(of);
         let text = is(|c| c.text);
@@ -126,8 +126,11 @@ mod tests {
 
     fn table() -> Table {
         let rows = vec![
-            TableRow::new(vec![Cell::text("a"), Cell::count(3), Cell::text("short")]),
-            TableRow::new(vec![Cell::text("b"), Cell::text("a reason that goes on to the end of the row")]),
+            TableRow::new(vec![TableCell::text("a"), TableCell::count(3), TableCell::text("short")]),
+            TableRow::new(vec![
+                TableCell::text("b"),
+                TableCell::text("a reason that goes on to the end of the row"),
+            ]),
         ];
         let columns = vec![Column::text("Row"), Column::number("n"), Column::text("Why")];
         Table { id: "t".into(), columns, rows, ..Table::default() }
@@ -147,7 +150,7 @@ mod tests {
     #[test]
     fn a_column_with_a_sentence_is_wide() {
         let mut table = table();
-        table.rows[0].cells[2] = Cell::text("a sentence that a narrow column would break to pieces");
+        table.rows[0].cells[2] = TableCell::text("a sentence that a narrow column would break to pieces");
         table.columns[2].chosen = true;
         assert_eq!(TableView::of(&table, "t".into()).columns[2].class, "text long chosen");
     }

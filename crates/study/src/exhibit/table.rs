@@ -56,7 +56,7 @@ impl Column {
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct TableRow {
     /// One cell for each column, or fewer where the last one spans the rest.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<TableCell>,
     /// How it stands among the others.
     pub state: RowState,
 }
@@ -64,7 +64,7 @@ pub struct TableRow {
 impl TableRow {
     /// A row like any other.
     #[must_use]
-    pub fn new(cells: Vec<Cell>) -> Self {
+    pub fn new(cells: Vec<TableCell>) -> Self {
         Self { cells, state: RowState::Plain }
     }
 }
@@ -84,7 +84,7 @@ pub enum RowState {
 
 /// A cell.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct Cell {
+pub struct TableCell {
     /// For people.
     pub text: String,
     /// Its uncertainty or a remark, for people, in small type; may be empty.
@@ -103,7 +103,7 @@ pub struct Cell {
     pub tone: Tone,
 }
 
-impl Cell {
+impl TableCell {
     /// Text alone.
     #[must_use]
     pub fn text(text: impl Into<String>) -> Self {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// How far a study got. A cell is a row on one frame: scene × level × replicate × row.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Progress {
+pub struct Completion {
     /// Cells that the study asks for.
     pub planned: u64,
     /// Of those: cells that ended, in a result, skipped for a reason, or with an error.
@@ -13,7 +13,7 @@ pub struct Progress {
     pub missing: Vec<Missing>,
 }
 
-impl Progress {
+impl Completion {
     /// Whether every planned cell ended.
     #[must_use]
     pub fn complete(&self) -> bool {
@@ -28,7 +28,7 @@ impl Progress {
 }
 
 /// `12 of 18 cells are finished; missing: …`.
-impl fmt::Display for Progress {
+impl fmt::Display for Completion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} of {} cells are finished", self.finished, self.planned)?;
         for (k, missing) in self.missing.iter().enumerate() {
@@ -110,7 +110,7 @@ mod tests {
             cells: 2,
             ..all.clone()
         };
-        let progress = Progress { planned: 30, finished: 16, missing: vec![all, part] };
+        let progress = Completion { planned: 30, finished: 16, missing: vec![all, part] };
         assert_eq!(
             progress.to_string(),
             "16 of 30 cells are finished; missing: all of scene outdoor (12 cells); outdoor at 16 spp, rdfc, replicates 2 and \

@@ -4,7 +4,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use noisefloor_denoiser::{Adaptive, Input};
-use noisefloor_frame::{Frame, Rounds as RoundsTold};
+use noisefloor_frame::{Frame, RoundsTaken};
 use noisefloor_render::{RenderRequest, Rounds, allocate};
 
 use super::progress::{advance, stopped};
@@ -55,6 +55,6 @@ pub(super) fn render(
     frame.provenance.render_seconds = Some(start.elapsed().as_secs_f64());
     frame.provenance.render_threads.get_or_insert(rayon::current_num_threads() as u32);
     frame.provenance.rounds =
-        Some(RoundsTold { count: adaptive.rounds, density_seconds: Some(density_seconds) });
+        Some(RoundsTaken { count: adaptive.rounds, density_seconds: Some(density_seconds) });
     Ok(frame)
 }

@@ -1,7 +1,7 @@
 //! The same bits for every instruction set, tile size and number of threads.
 
 use super::{Case, RULES, Rule, levels};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::inside::flash_filter_in_tiles;
 
 fn bits(planes: &[Vec<f32>; 3]) -> Vec<u32> {
@@ -16,7 +16,7 @@ fn every_instruction_set_gives_the_same_bits() {
             if !guided {
                 case.guide = None;
             }
-            let portable = bits(&case.filter_at(Level::Portable));
+            let portable = bits(&case.filter_at(InstructionSet::Portable));
             for level in levels() {
                 assert!(bits(&case.filter_at(level)) == portable, "{level}, {rule:?}, patch {patch_radius}");
             }
@@ -30,7 +30,7 @@ fn every_instruction_set_gives_the_same_bits_where_weights_vanish() {
     let mut case = Case::random(83, 21, 4, 1, Rule::Off);
     let (_, sigma_r2) = case.guide.as_mut().unwrap();
     sigma_r2.iter_mut().for_each(|v| *v /= 100.0);
-    let portable = bits(&case.filter_at(Level::Portable));
+    let portable = bits(&case.filter_at(InstructionSet::Portable));
     for level in levels() {
         assert!(bits(&case.filter_at(level)) == portable, "{level}");
     }
@@ -67,6 +67,6 @@ fn any_number_of_threads_gives_the_same_bits() {
 #[test]
 fn the_best_level_is_available_and_used_by_default() {
     let case = Case::random(20, 20, 2, 1, Rule::Joint);
-    assert!(levels().any(|level| level == Level::best()));
-    assert_eq!(bits(&case.filter()), bits(&case.filter_at(Level::best())));
+    assert!(levels().any(|level| level == InstructionSet::best()));
+    assert_eq!(bits(&case.filter()), bits(&case.filter_at(InstructionSet::best())));
 }

@@ -37,7 +37,7 @@ fn every_instruction_set_gives_the_same_bits_and_the_image_stays_what_it_is() {
                 case.guide = None;
             }
             for variances in [true, false] {
-                let portable = case.carrying_at(noisefloor_kernels::Level::Portable, variances);
+                let portable = case.carrying_at(noisefloor_kernels::InstructionSet::Portable, variances);
                 for level in levels() {
                     assert_eq!(case.carrying_at(level, variances), portable, "{level}, {rule:?}");
                     assert_eq!(case.filter_at(level), portable.image, "{level}, {rule:?}");
@@ -68,7 +68,7 @@ fn a_mean_of_equal_weights_divides_the_variance_by_the_number_of_members() {
     case.carried = [(); 3].map(|()| vec![0.49; 800]);
     let counts =
         noisefloor_kernels::flash_filter::homogeneous_counts(&case.params, &case.inputs(), 0).unwrap();
-    let result = case.carrying_at(noisefloor_kernels::Level::best(), true);
+    let result = case.carrying_at(noisefloor_kernels::InstructionSet::best(), true);
     for (value, count) in result.carried[1].iter().zip(counts) {
         assert!((value * count as f32 / 0.49 - 1.0).abs() < 1e-5, "{value} for {count} members");
     }
@@ -80,7 +80,7 @@ fn a_carried_source_is_the_image() {
     for rule in RULES {
         let mut case = Case::random(70, 20, 5, 2, rule);
         case.carried = case.source.clone();
-        let result = case.carrying_at(noisefloor_kernels::Level::best(), false);
+        let result = case.carrying_at(noisefloor_kernels::InstructionSet::best(), false);
         for (a, b) in result.image.iter().flatten().zip(result.carried.iter().flatten()) {
             assert!((a - b).abs() < 1e-6, "{rule:?}: {a} and {b}");
         }

@@ -1,7 +1,7 @@
 //! Input at the edge of what is allowed, and beyond.
 
 use super::{Case, RULES, Rule, levels};
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{
     FlashFilterError, FlashParams, Membership, PatchWeights, filter, filter_into, naive,
 };
@@ -153,7 +153,7 @@ fn planes_of_the_wrong_length_are_refused() {
     assert_eq!(filter(&case.params, &inputs), Err(expected));
 
     let (mut a, mut b, mut c) = (vec![0.0; 64], vec![0.0; 65], vec![0.0; 64]);
-    let result = filter_into(&case.params, &case.inputs(), Level::best(), [&mut a, &mut b, &mut c]);
+    let result = filter_into(&case.params, &case.inputs(), InstructionSet::best(), [&mut a, &mut b, &mut c]);
     let expected = FlashFilterError::PlaneLength { plane: "output 1", expected: 64, actual: 65 };
     assert_eq!(result, Err(expected));
 }
@@ -161,7 +161,7 @@ fn planes_of_the_wrong_length_are_refused() {
 #[test]
 fn an_instruction_set_that_is_missing_is_refused() {
     let case = Case::random(8, 8, 2, 1, Rule::Joint);
-    for level in Level::ALL {
+    for level in InstructionSet::ALL {
         let mut out = [(); 3].map(|()| vec![0.0; 64]);
         let [r, g, b] = &mut out;
         let result = filter_into(&case.params, &case.inputs(), level, [r, g, b]);

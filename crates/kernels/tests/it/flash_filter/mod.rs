@@ -7,7 +7,7 @@ mod oracle;
 mod properties;
 mod sets;
 
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{
     Carried, Filtered, FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_carrying_into,
     filter_into,
@@ -109,7 +109,7 @@ impl Case {
         }
     }
 
-    pub fn filter_at(&self, level: Level) -> [Vec<f32>; 3] {
+    pub fn filter_at(&self, level: InstructionSet) -> [Vec<f32>; 3] {
         let mut out = [(); 3].map(|()| vec![f32::NAN; self.params.width * self.params.height]);
         let [r, g, b] = &mut out;
         filter_into(&self.params, &self.inputs(), level, [r, g, b]).unwrap();
@@ -122,7 +122,7 @@ impl Case {
         if variances { Carried::Variances(planes) } else { Carried::Values(planes) }
     }
 
-    pub fn carrying_at(&self, level: Level, variances: bool) -> Filtered {
+    pub fn carrying_at(&self, level: InstructionSet, variances: bool) -> Filtered {
         let planes = || [(); 3].map(|()| vec![f32::NAN; self.params.width * self.params.height]);
         let mut out = Filtered { image: planes(), carried: planes() };
         let into = [&mut out.image, &mut out.carried].map(|planes| planes.each_mut().map(Vec::as_mut_slice));
@@ -140,6 +140,6 @@ impl Case {
 }
 
 /// The instruction sets of this machine.
-pub(super) fn levels() -> impl Iterator<Item = Level> {
-    Level::ALL.into_iter().filter(|level| level.is_available())
+pub(super) fn levels() -> impl Iterator<Item = InstructionSet> {
+    InstructionSet::ALL.into_iter().filter(|level| level.is_available())
 }

@@ -24,8 +24,9 @@ fn bits(filtered: &[Filtered]) -> Vec<u32> {
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
     for case in cases() {
-        let expected = bits(&filter_at(&case.params, &case.passes, &case.inputs(), Level::Portable).unwrap());
-        for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        let expected =
+            bits(&filter_at(&case.params, &case.passes, &case.inputs(), InstructionSet::Portable).unwrap());
+        for level in InstructionSet::ALL.into_iter().filter(|level| level.is_available()) {
             let got = bits(&filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap());
             assert!(got == expected, "{level}");
         }
@@ -49,7 +50,8 @@ fn every_tile_size_gives_the_same_bits() {
     for case in cases() {
         let expected = bits(&case.fast());
         for tile in [(16, 1), (32, 64), (128, 7)] {
-            let got = nlm_in_tiles(&case.params, &case.passes, &case.inputs(), Level::best(), tile).unwrap();
+            let got = nlm_in_tiles(&case.params, &case.passes, &case.inputs(), InstructionSet::best(), tile)
+                .unwrap();
             assert!(bits(&got) == expected, "{tile:?}");
         }
     }
@@ -68,7 +70,7 @@ fn passes_of_one_sweep_give_the_bits_of_each_alone() {
 
 #[test]
 fn a_level_that_is_missing_is_refused() {
-    for level in Level::ALL.into_iter().filter(|level| !level.is_available()) {
+    for level in InstructionSet::ALL.into_iter().filter(|level| !level.is_available()) {
         let case = Case::random(3, 3, 1, &[pass(None, 1.0)], &[]);
         let error = filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap_err();
         assert_eq!(error, NlmError::LevelUnavailable { level });

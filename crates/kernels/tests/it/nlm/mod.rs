@@ -3,7 +3,7 @@ mod hard_cases;
 mod oracle;
 mod properties;
 
-use noisefloor_kernels::Level;
+use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::inside::nlm_in_tiles;
 use noisefloor_kernels::nlm::naive::filter_f64;
 use noisefloor_kernels::nlm::*;

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Number, Part, Table, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Number, Part, Table, TableCell, TableRow, Tone};
 
 use crate::view::View;
 
@@ -15,7 +15,7 @@ pub(super) fn parts(view: &View<'_>) -> Vec<Part> {
     for method in &summary.methods {
         let ratios: Vec<Option<f64>> = summary.scenes.iter().map(|s| worst(&s.id, &method.label)).collect();
         if ratios.iter().any(Option::is_some) {
-            let cells = ratios.into_iter().map(|ratio| ratio.map_or_else(Cell::none, cell));
+            let cells = ratios.into_iter().map(|ratio| ratio.map_or_else(TableCell::none, cell));
             rows.push(TableRow::new(std::iter::once(view.row_cell(&method.label)).chain(cells).collect()));
         }
     }
@@ -36,7 +36,7 @@ pub(super) fn parts(view: &View<'_>) -> Vec<Part> {
     ]
 }
 
-fn cell(ratio: f64) -> Cell {
+fn cell(ratio: f64) -> TableCell {
     let (word, tone) = if ratio <= 1.0 { ("held", Tone::Good) } else { ("violated", Tone::Bad) };
-    Cell::text(format!("{ratio:.6}")).number(Number::exact(ratio)).tag(word, tone, "").tone(tone)
+    TableCell::text(format!("{ratio:.6}")).number(Number::exact(ratio)).tag(word, tone, "").tone(tone)
 }

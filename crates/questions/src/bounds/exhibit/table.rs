@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use noisefloor_study::exhibit::{Cell, Column, Number, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Number, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::BoundSummary;
 
@@ -92,19 +92,19 @@ pub(super) fn parts(view: &View<'_>, promises: &Promises<'_>, name: &str) -> Vec
 }
 
 fn row(view: &View<'_>, p: &Promise<'_>, by_class: bool) -> TableRow {
-    let claim = Cell::text(p.claim).tag(p.kind(), noisefloor_study::exhibit::Tone::Plain, "");
+    let claim = TableCell::text(p.claim).tag(p.kind(), noisefloor_study::exhibit::Tone::Plain, "");
     let mut cells = vec![view.row_cell(p.label), claim];
-    cells.extend(by_class.then(|| Cell::text(p.class)));
-    cells.push(Cell::text(format::percent_short(p.alpha)).number(Number::exact(p.alpha)));
+    cells.extend(by_class.then(|| TableCell::text(p.class)));
+    cells.push(TableCell::text(format::percent_short(p.alpha)).number(Number::exact(p.alpha)));
     cells.extend(p.found.iter().map(|found| {
-        let Some(b) = found else { return Cell::none() };
+        let Some(b) = found else { return TableCell::none() };
         if by_class { rate(b) } else { rate(b).about(details(b)) }
     }));
     TableRow::new(cells)
 }
 
 /// One measured rate with what it says of the promise.
-fn rate(b: &BoundSummary) -> Cell {
+fn rate(b: &BoundSummary) -> TableCell {
     let mut cell = shown::fraction(&b.violations);
     if b.mark.is_some() {
         cell.text += " *";

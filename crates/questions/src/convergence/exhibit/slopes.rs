@@ -1,5 +1,5 @@
 use noisefloor_stats::Verdict;
-use noisefloor_study::exhibit::{Cell, Column, Exhibit, Part, Table, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Exhibit, Part, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::SlopeSummary;
 
@@ -65,8 +65,8 @@ fn row(view: &View<'_>, s: &SlopeSummary) -> TableRow {
     TableRow::new(vec![
         view.row_cell(&s.label),
         shown::value(&s.slope),
-        Cell::text(s.verdict.name()).tone(tone),
-        Cell::text(sentence),
+        TableCell::text(s.verdict.name()).tone(tone),
+        TableCell::text(sentence),
     ])
 }
 

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use noisefloor_study::exhibit::{Cell, Column, Part, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::CoverageSummary;
 
@@ -13,7 +13,7 @@ pub(in crate::coverage) struct Covered<'a> {
     /// Nominal levels, ascending.
     pub(in crate::coverage) nominal: Vec<f64>,
     /// Class and level in samples per pixel with the cells of the nominal levels, of constant and of missed pixels.
-    pub(in crate::coverage) rows: Vec<(&'a str, u32, Vec<Cell>)>,
+    pub(in crate::coverage) rows: Vec<(&'a str, u32, Vec<TableCell>)>,
     marks: Vec<String>,
 }
 
@@ -28,7 +28,7 @@ pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<C
     let row = |(class, spp): (&'a str, u32)| {
         let here: Vec<&CoverageSummary> =
             all.iter().filter(|c| c.class == class && c.spp == spp).copied().collect();
-        let mut cells: Vec<Cell> = nominal.iter().map(|level| cell(&here, *level)).collect();
+        let mut cells: Vec<TableCell> = nominal.iter().map(|level| cell(&here, *level)).collect();
         // The split does not depend on the nominal level, except through the reference's noise.
         let first = here.first();
         cells.push(first.map(|c| shown::share(c.constant)).unwrap_or_default());
@@ -40,8 +40,8 @@ pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<C
     Some(Covered { nominal, rows, marks })
 }
 
-fn cell(here: &[&CoverageSummary], nominal: f64) -> Cell {
-    let Some(c) = here.iter().find(|c| c.confidence == nominal) else { return Cell::default() };
+fn cell(here: &[&CoverageSummary], nominal: f64) -> TableCell {
+    let Some(c) = here.iter().find(|c| c.confidence == nominal) else { return TableCell::default() };
     let mut cell = shown::fraction(&c.covered);
     if c.mark.is_some() {
         cell.text += " *";
@@ -59,7 +59,7 @@ pub(super) fn parts(covered: &Covered<'_>, name: &str) -> Vec<Part> {
         nominal.chain(["constant".into(), "missed".into()]).map(Column::number)
     };
     let rows = all.into_iter().map(|(_, spp, cells)| {
-        TableRow::new(std::iter::once(Cell::count((*spp).into())).chain(cells.clone()).collect())
+        TableRow::new(std::iter::once(TableCell::count((*spp).into())).chain(cells.clone()).collect())
     });
     let table = Table {
         id: format!("coverage-{name}"),
@@ -72,7 +72,10 @@ pub(super) fn parts(covered: &Covered<'_>, name: &str) -> Vec<Part> {
     if !classes.is_empty() {
         let rows = classes.into_iter().map(|(class, spp, cells)| {
             TableRow::new(
-                [Cell::text(*class), Cell::count((*spp).into())].into_iter().chain(cells.clone()).collect(),
+                [TableCell::text(*class), TableCell::count((*spp).into())]
+                    .into_iter()
+                    .chain(cells.clone())
+                    .collect(),
             )
         });
         let table = Table {

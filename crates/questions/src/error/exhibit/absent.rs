@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Part, RowState, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Part, RowState, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::Skipped;
 
@@ -12,11 +12,11 @@ pub(super) fn parts(view: &View<'_>) -> Vec<Part> {
     }
     let row = |s: &Skipped| TableRow {
         cells: vec![
-            Cell::text(view.scene_title(&s.scene)),
+            TableCell::text(view.scene_title(&s.scene)),
             view.row_cell(&s.label),
-            Cell::text(format::list(&s.spp.iter().map(u32::to_string).collect::<Vec<_>>())),
-            Cell::text(s.status.name()),
-            Cell::text(&s.reason),
+            TableCell::text(format::list(&s.spp.iter().map(u32::to_string).collect::<Vec<_>>())),
+            TableCell::text(s.status.name()),
+            TableCell::text(&s.reason),
         ],
         state: RowState::Absent,
     };

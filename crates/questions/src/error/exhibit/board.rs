@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Number, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Number, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::{CellSummary, Interval};
 
@@ -19,8 +19,8 @@ pub(crate) fn board(view: &View<'_>) -> Option<Table> {
         ..shown::level_column(spp).unit("times below mc")
     };
     let rows = view.summary.scenes.iter().map(|scene| {
-        let cells = study.spp.iter().map(|&spp| cell(view, &scene.id, spp).unwrap_or_else(Cell::none));
-        TableRow::new(std::iter::once(Cell::text(&scene.title)).chain(cells).collect())
+        let cells = study.spp.iter().map(|&spp| cell(view, &scene.id, spp).unwrap_or_else(TableCell::none));
+        TableRow::new(std::iter::once(TableCell::text(&scene.title)).chain(cells).collect())
     });
     Some(Table {
         id: "board".into(),
@@ -31,7 +31,7 @@ pub(crate) fn board(view: &View<'_>) -> Option<Table> {
     })
 }
 
-fn cell(view: &View<'_>, scene: &str, spp: u32) -> Option<Cell> {
+fn cell(view: &View<'_>, scene: &str, spp: u32) -> Option<TableCell> {
     let (metric, _) = view.primary();
     let label = *view.ranking(scene, spp, metric).first()?;
     let cell = view.cell(scene, spp, label)?;
@@ -48,7 +48,7 @@ fn cell(view: &View<'_>, scene: &str, spp: u32) -> Option<Cell> {
         n => (format!("tied with {n}"), format!("Not distinguishable from {}", tied.join(", "))),
     };
     let aside = shown::joined(&[so_far, &how_far, &with], " · ");
-    Some(Cell { number: gain, ..view.row_cell(label).aside(aside).about(about) })
+    Some(TableCell { number: gain, ..view.row_cell(label).aside(aside).about(about) })
 }
 
 /// How many times below plain Monte Carlo's error; nothing if it is not below, as of plain Monte Carlo itself.

@@ -1,5 +1,5 @@
 use noisefloor_stats::Family;
-use noisefloor_study::exhibit::{Cell, Column, Part, RowState, Table, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Part, RowState, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::{CellSummary, SceneSummary};
 
@@ -97,7 +97,10 @@ impl<'a> Standings<'a> {
 fn skipped(view: &View<'_>, scene: &str, spp: u32) -> Vec<TableRow> {
     let here = view.summary.skipped.iter().filter(|s| s.scene == scene && s.spp.contains(&spp));
     here.map(|s| TableRow {
-        cells: vec![view.row_cell(&s.label), Cell::text(&s.reason).tag(s.status.name(), Tone::Plain, "")],
+        cells: vec![
+            view.row_cell(&s.label),
+            TableCell::text(&s.reason).tag(s.status.name(), Tone::Plain, ""),
+        ],
         state: RowState::Absent,
     })
     .collect()

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Table, TableRow};
+use noisefloor_study::exhibit::{Column, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::CellSummary;
 
@@ -65,7 +65,7 @@ pub(super) fn classes(view: &View<'_>, name: &str, spp: u32, cells: &[&CellSumma
     })
 }
 
-fn of_class(cell: &CellSummary, class: &str, metric: &str) -> Cell {
+fn of_class(cell: &CellSummary, class: &str, metric: &str) -> TableCell {
     let value = cell.classes.get(class).and_then(|metrics| metrics.get(metric));
     let value = shown::value_or_empty(value);
     match cell.class_ratio_to_mc.get(class).and_then(|metrics| metrics.get(metric)) {

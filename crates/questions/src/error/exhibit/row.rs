@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, RowState, TableRow, Tone};
+use noisefloor_study::exhibit::{RowState, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::CellSummary;
 
@@ -65,18 +65,20 @@ pub(super) fn row(view: &View<'_>, cell: &CellSummary, shown: Shown<'_>, standin
     }
     let mut cells = vec![name, value(cell, shown.metric)];
     let ratio = cell.ratio_to_mc.get(shown.metric).filter(|_| !is_baseline);
-    cells.push(ratio.map_or_else(Cell::default, |ratio| Cell {
+    cells.push(ratio.map_or_else(TableCell::default, |ratio| TableCell {
         forest: shown.range.and_then(|range| forest(ratio, range)),
         ..shown::ratio(ratio)
     }));
-    cells.extend(shown.equal.then(|| if is_baseline { Cell::default() } else { equal(cell, shown.metric) }));
-    cells.push(if is_baseline { Cell::none() } else { denoise(cell) });
+    cells.extend(
+        shown.equal.then(|| if is_baseline { TableCell::default() } else { equal(cell, shown.metric) }),
+    );
+    cells.push(if is_baseline { TableCell::none() } else { denoise(cell) });
     let total = cell.render_seconds.map(|r| r + cell.denoise_seconds.unwrap_or(0.0));
     cells.push(shown::seconds(total));
     TableRow { cells, state: standing.state() }
 }
 
-fn value(cell: &CellSummary, metric: &str) -> Cell {
+fn value(cell: &CellSummary, metric: &str) -> TableCell {
     let value = shown::value_or_empty(cell.metrics.get(metric));
     match (cell.pixels, cell.pixels_of) {
         (pixels, all) if pixels < all && pixels > 0 => {
@@ -88,8 +90,8 @@ fn value(cell: &CellSummary, metric: &str) -> Cell {
     }
 }
 
-fn equal(cell: &CellSummary, metric: &str) -> Cell {
-    let Some(equal) = cell.equal_error.get(metric) else { return Cell::default() };
+fn equal(cell: &CellSummary, metric: &str) -> TableCell {
+    let Some(equal) = cell.equal_error.get(metric) else { return TableCell::default() };
     let shown = shown::ratio(equal);
     match cell.equal_error_extrapolated.get(metric) {
         Some(true) => shown.tag("ext.", Tone::Plain, "Extrapolated beyond the rendered levels"),
@@ -97,7 +99,7 @@ fn equal(cell: &CellSummary, metric: &str) -> Cell {
     }
 }
 
-fn denoise(cell: &CellSummary) -> Cell {
+fn denoise(cell: &CellSummary) -> TableCell {
     let range = cell.denoise_seconds_range.filter(|[low, high]| high > low);
     let about = range.map_or_else(String::new, |[low, high]| {
         format!("all runs: {} to {}", format::duration(low), format::duration(high))

@@ -1,4 +1,4 @@
-use noisefloor_study::exhibit::{Cell, Column, Part, Table, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Part, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::{Calibration, EstimateSummary, SceneSummary};
 
@@ -26,17 +26,17 @@ fn table(view: &View<'_>, id: String, estimates: &[&EstimateSummary], by_class: 
     columns.extend(["Estimated", "Measured", "Ratio"].map(Column::number));
     columns.push(Column::text("Verdict"));
     let row = |e: &&EstimateSummary| {
-        let mut cells = vec![Cell::count(e.spp.into()), view.row_cell(&e.label)];
-        cells.extend(by_class.then(|| Cell::text(&e.class)));
+        let mut cells = vec![TableCell::count(e.spp.into()), view.row_cell(&e.label)];
+        cells.extend(by_class.then(|| TableCell::text(&e.class)));
         cells.extend([shown::value(&e.estimated), shown::value(&e.measured), effect(e)]);
-        cells.push(Cell::text(e.verdict.name()).tone(tone(e.verdict)).aside(note(e)));
+        cells.push(TableCell::text(e.verdict.name()).tone(tone(e.verdict)).aside(note(e)));
         TableRow::new(cells)
     };
     Table { id, columns, rows: estimates.iter().map(row).collect(), ..Table::default() }
 }
 
 /// Estimated beside measured.
-pub(in crate::own_error) fn effect(e: &EstimateSummary) -> Cell {
+pub(in crate::own_error) fn effect(e: &EstimateSummary) -> TableCell {
     shown::effect(shown::value(&e.effect), e.is_ratio)
 }
 

@@ -5,13 +5,13 @@ use std::fmt;
 /// An instruction set. All levels of a kernel give the same bits; they differ in speed only.
 ///
 /// ```
-/// use noisefloor_kernels::Level;
-/// assert!(Level::best().is_available());
-/// assert!(Level::Portable.is_available());
+/// use noisefloor_kernels::InstructionSet;
+/// assert!(InstructionSet::best().is_available());
+/// assert!(InstructionSet::Portable.is_available());
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
-pub enum Level {
+pub enum InstructionSet {
     /// Plain Rust over small arrays, compiled for whatever the binary was built for. Where that has no fused
     /// multiply-add (x86-64 by default) each one is a library call: right, but slow.
     Portable,
@@ -21,45 +21,48 @@ pub enum Level {
     Avx512,
 }
 
-impl Level {
+impl InstructionSet {
     /// Every level, slowest first, whether this processor has it or not.
-    pub const ALL: [Level; 3] = [Level::Portable, Level::Avx2, Level::Avx512];
+    pub const ALL: [InstructionSet; 3] =
+        [InstructionSet::Portable, InstructionSet::Avx2, InstructionSet::Avx512];
 
     /// The fastest level that this processor and operating system support.
-    pub fn best() -> Level {
-        if Level::Avx512.is_available() {
-            Level::Avx512
-        } else if Level::Avx2.is_available() {
-            Level::Avx2
+    pub fn best() -> InstructionSet {
+        if InstructionSet::Avx512.is_available() {
+            InstructionSet::Avx512
+        } else if InstructionSet::Avx2.is_available() {
+            InstructionSet::Avx2
         } else {
-            Level::Portable
+            InstructionSet::Portable
         }
     }
 
     /// Whether this level can run here.
     pub fn is_available(self) -> bool {
         match self {
-            Level::Portable => true,
+            InstructionSet::Portable => true,
             #[cfg(target_arch = "x86_64")]
-            Level::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
+            InstructionSet::Avx2 => is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma"),
             #[cfg(target_arch = "x86_64")]
-            Level::Avx512 => is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq"),
+            InstructionSet::Avx512 => {
+                is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
+            }
             #[cfg(not(target_arch = "x86_64"))]
-            Level::Avx2 | Level::Avx512 => false,
+            InstructionSet::Avx2 | InstructionSet::Avx512 => false,
         }
     }
 
     /// Short lower-case name: `portable`, `avx2` or `avx512`.
     pub fn name(self) -> &'static str {
         match self {
-            Level::Portable => "portable",
-            Level::Avx2 => "avx2",
-            Level::Avx512 => "avx512",
+            InstructionSet::Portable => "portable",
+            InstructionSet::Avx2 => "avx2",
+            InstructionSet::Avx512 => "avx512",
         }
     }
 }
 
-impl fmt::Display for Level {
+impl fmt::Display for InstructionSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }
