@@ -26,6 +26,7 @@
 
 mod case;
 pub mod change;
+mod citations;
 mod outcome;
 mod recipe;
 mod recipes;
@@ -34,6 +35,7 @@ mod tolerance;
 mod trial;
 mod violation;
 
+pub use citations::cited;
 pub use outcome::Outcome;
 pub use recipe::Recipe;
 pub use recipes::recipes;

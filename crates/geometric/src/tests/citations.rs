@@ -1,5 +1,7 @@
 //! The slides' listing is found in the source by searching for its lines.
 
+use noisefloor_conformance::cited;
+
 /// Lines of the listing, without the blank ones.
 const LINES: u32 = 15;
 
@@ -10,29 +12,8 @@ const FILES: [(&str, &str); 4] = [
     ("row.rs", include_str!("../cone/row.rs")),
 ];
 
-/// Numbers that a text cites after `word`, in their order: "7" as 7, "5-8" as 5 to 8; a plural is read as well.
-fn cited(text: &str, word: &str) -> Vec<u32> {
-    let number = |text: &str| -> Option<u32> {
-        text.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok())
-    };
-    let range = |(at, _): (usize, &str)| {
-        let after = &text[at + word.len()..];
-        let after = after.strip_prefix('s').unwrap_or(after).strip_prefix(' ')?;
-        let first = number(after)?;
-        let rest = after.trim_start_matches(|c: char| c.is_ascii_digit());
-        let last = rest.strip_prefix('-').and_then(number).unwrap_or(first);
-        Some(first..=last)
-    };
-    text.match_indices(word).filter_map(range).flatten().collect()
-}
-
 fn lines(text: &str) -> Vec<u32> {
     cited(text, "Listing, line")
-}
-
-#[test]
-fn citations_are_read_as_written() {
-    assert_eq!(lines("Listing, line 7 and Listing, lines 9-11; line 3"), [7, 9, 10, 11]);
 }
 
 #[test]

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use noisefloor_conformance::cited;
+
 /// Lines of Algorithm 1.
 const LINES: u32 = 29;
 /// Numbered equations of the paper; it has no others.
@@ -24,34 +26,12 @@ fn sources() -> BTreeMap<String, String> {
         .collect()
 }
 
-/// Numbers that a text cites after `word`, in their order: "7" as 7, "5-8" as 5 to 8; a plural is read as well.
-fn cited(text: &str, word: &str) -> Vec<u32> {
-    let number = |text: &str| -> Option<u32> {
-        text.split(|c: char| !c.is_ascii_digit()).next().and_then(|digits| digits.parse().ok())
-    };
-    let range = |(at, _): (usize, &str)| {
-        let after = &text[at + word.len()..];
-        let after = after.strip_prefix('s').unwrap_or(after).strip_prefix(' ')?;
-        let first = number(after)?;
-        let rest = after.trim_start_matches(|c: char| c.is_ascii_digit());
-        let last = rest.strip_prefix('-').and_then(number).unwrap_or(first);
-        Some(first..=last)
-    };
-    text.match_indices(word).filter_map(range).flatten().collect()
-}
-
 fn lines(text: &str) -> Vec<u32> {
     cited(text, "Alg. 1, line")
 }
 
 fn equations(text: &str) -> Vec<u32> {
     cited(text, "Eq.")
-}
-
-#[test]
-fn citations_are_read_as_written() {
-    assert_eq!(lines("as Alg. 1, line 7 and Alg. 1, lines 9-11 say; line 3"), [7, 9, 10, 11]);
-    assert_eq!(equations("Eq. 3, Eq. 12. Equation 4"), [3, 12]);
 }
 
 #[test]
