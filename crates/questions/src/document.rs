@@ -49,7 +49,7 @@ pub fn document(summary: &Summary) -> Document {
 
 /// The first screen's sentences.
 pub(crate) fn answers(view: &View<'_>) -> Vec<Answer> {
-    QUESTIONS.iter().filter_map(|question| question.answer(view)).collect()
+    QUESTIONS.iter().filter_map(|question| (question.answer)(view)).collect()
 }
 
 /// Errors of the first scene that has any: the same chart as in its section.
@@ -63,7 +63,7 @@ fn first_chart(view: &View<'_>) -> Option<Chart> {
 fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     let (mut first, mut further) = (Vec::new(), Vec::new());
     for question in QUESTIONS {
-        let mut of_question = question.exhibits(view).into_iter();
+        let mut of_question = (question.exhibits)(view).into_iter();
         first.extend(of_question.next());
         further.extend(of_question);
     }

@@ -11,46 +11,13 @@ pub(crate) use exhibit::{board, cards};
 pub use measure::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub(crate) use ratio::ratio_within_se;
 
-use noisefloor_study::exhibit::{Answer, Exhibit};
-use noisefloor_study::record::Record;
-use noisefloor_study::summary::Summary;
-
-use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
-use crate::readme::Kind;
-use crate::records::Index;
-use crate::view::View;
 
-/// The question.
-#[derive(Debug)]
-pub(crate) struct Error;
-
-impl Question for Error {
-    fn id(&self) -> &'static str {
-        "error"
-    }
-
-    fn methodology(&self) -> &'static str {
-        include_str!("error/METHODOLOGY.md")
-    }
-
-    fn measure(&self, cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
-        measure::measure(cell, record)
-    }
-
-    fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
-        analyse::analyse(records, summary);
-    }
-
-    fn answer(&self, view: &View<'_>) -> Option<Answer> {
-        exhibit::answer(view)
-    }
-
-    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
-        exhibit::exhibits(view)
-    }
-
-    fn readme(&self) -> &'static [Kind] {
-        readme::KINDS
-    }
-}
+pub(crate) const QUESTION: Question = Question {
+    measure: measure::measure,
+    analyse: analyse::analyse,
+    answer: exhibit::answer,
+    exhibits: exhibit::exhibits,
+    readme: readme::KINDS,
+    ..Question::new("error", include_str!("error/METHODOLOGY.md"))
+};

@@ -8,36 +8,11 @@ mod readme;
 
 pub use measure::{Images, Sequences, flicker};
 
-use noisefloor_study::exhibit::Exhibit;
-use noisefloor_study::summary::Summary;
-
 use crate::question::Question;
-use crate::readme::Kind;
-use crate::records::Index;
-use crate::view::View;
 
-/// The question.
-#[derive(Debug)]
-pub(crate) struct Flicker;
-
-impl Question for Flicker {
-    fn id(&self) -> &'static str {
-        "flicker"
-    }
-
-    fn methodology(&self) -> &'static str {
-        include_str!("flicker/METHODOLOGY.md")
-    }
-
-    fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
-        analyse::analyse(records, summary);
-    }
-
-    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
-        exhibit::exhibits(view)
-    }
-
-    fn readme(&self) -> &'static [Kind] {
-        readme::KINDS
-    }
-}
+pub(crate) const QUESTION: Question = Question {
+    analyse: analyse::analyse,
+    exhibits: exhibit::exhibits,
+    readme: readme::KINDS,
+    ..Question::new("flicker", include_str!("flicker/METHODOLOGY.md"))
+};

@@ -2,35 +2,27 @@
 
 use noisefloor_study::record::Record;
 
-use crate::bounds::Bounds;
-use crate::breakage::Breakage;
 use crate::cell::{Cell, MeasureError};
-use crate::comparison::Comparison;
-use crate::convergence::Convergence;
-use crate::cost::Cost;
-use crate::coverage::Coverage;
-use crate::equal_time::EqualTime;
-use crate::error::Error;
-use crate::flicker::Flicker;
-use crate::growth::Growth;
-use crate::own_error::OwnError;
-use crate::paper::Paper;
 use crate::question::Question;
+use crate::{
+    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth, own_error,
+    paper,
+};
 
 /// All questions, in the order in which they are measured, analysed and shown.
-pub const QUESTIONS: &[&dyn Question] = &[
-    &Paper,
-    &Error,
-    &Comparison,
-    &Convergence,
-    &Cost,
-    &Coverage,
-    &Bounds,
-    &OwnError,
-    &Growth,
-    &EqualTime,
-    &Flicker,
-    &Breakage,
+pub const QUESTIONS: &[Question] = &[
+    paper::QUESTION,
+    error::QUESTION,
+    comparison::QUESTION,
+    convergence::QUESTION,
+    cost::QUESTION,
+    coverage::QUESTION,
+    bounds::QUESTION,
+    own_error::QUESTION,
+    growth::QUESTION,
+    equal_time::QUESTION,
+    flicker::QUESTION,
+    breakage::QUESTION,
 ];
 
 /// Puts every question to a finished cell.
@@ -38,5 +30,5 @@ pub const QUESTIONS: &[&dyn Question] = &[
 /// # Errors
 /// Of the first question that cannot be measured.
 pub fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
-    QUESTIONS.iter().try_for_each(|question| question.measure(cell, record))
+    QUESTIONS.iter().try_for_each(|question| (question.measure)(cell, record))
 }

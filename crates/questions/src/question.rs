@@ -9,43 +9,38 @@ use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
-/// A question to the data. All parts but the id and the paragraph may be absent.
-pub trait Question: Sync {
+/// A question to the data: its folder as a row of [`QUESTIONS`](crate::QUESTIONS). What it does not do is as
+/// [`new`](Self::new) has it.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
     /// Anchor in the page, and the name of its answers on disk.
-    fn id(&self) -> &'static str;
-
+    pub id: &'static str,
     /// Its paragraph of the methodology, Markdown.
-    fn methodology(&self) -> &'static str;
-
+    pub methodology: &'static str,
     /// Measures a finished cell, into its record.
-    ///
-    /// # Errors
-    /// If image, frame and truth do not fit together.
-    fn measure(&self, cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
-        let _ = (cell, record);
-        Ok(())
-    }
-
+    pub measure: fn(&Cell<'_>, &mut Record) -> Result<(), MeasureError>,
     /// Analyses all records, into the summary; what comes before it in [`QUESTIONS`](crate::QUESTIONS) is there already.
-    fn analyse(&self, records: &Index<'_>, summary: &mut Summary) {
-        let _ = (records, summary);
-    }
-
+    pub analyse: fn(&Index<'_>, &mut Summary),
     /// The answer in a sentence or a few, for the first screen.
-    fn answer(&self, view: &View<'_>) -> Option<Answer> {
-        let _ = view;
-        None
-    }
-
+    pub answer: fn(&View<'_>) -> Option<Answer>,
     /// What a reader sees; nothing where the study has nothing to show. The first of every question come before the
     /// further ones.
-    fn exhibits(&self, view: &View<'_>) -> Vec<Exhibit> {
-        let _ = view;
-        Vec::new()
-    }
-
+    pub exhibits: fn(&View<'_>) -> Vec<Exhibit>,
     /// Tables that it has for a README.
-    fn readme(&self) -> &'static [Kind] {
-        &[]
+    pub readme: &'static [Kind],
+}
+
+impl Question {
+    /// A question that measures, analyses and shows nothing.
+    pub(crate) const fn new(id: &'static str, methodology: &'static str) -> Self {
+        Self {
+            id,
+            methodology,
+            measure: |_, _| Ok(()),
+            analyse: |_, _| (),
+            answer: |_| None,
+            exhibits: |_| Vec::new(),
+            readme: &[],
+        }
     }
 }

@@ -40,7 +40,7 @@ use crate::view::View;
 /// A clause for people, if the study has nothing of this name.
 pub fn readme_table(summary: &Summary, asked: &Asked) -> Result<Vec<Block>, String> {
     let view = View::new(summary);
-    let kinds = || QUESTIONS.iter().flat_map(|question| question.readme()).chain(common::KINDS);
+    let kinds = || QUESTIONS.iter().flat_map(|question| question.readme).chain(common::KINDS);
     let kind = kinds()
         .find(|kind| kind.name == asked.kind)
         .ok_or_else(|| format!("there is no table `{}`", asked.kind))?;

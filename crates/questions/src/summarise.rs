@@ -50,7 +50,7 @@ pub fn summarise(
         warnings: sequences.problems,
         ..Summary::default()
     };
-    QUESTIONS.iter().for_each(|question| question.analyse(&index, &mut summary));
+    QUESTIONS.iter().for_each(|question| (question.analyse)(&index, &mut summary));
     summary
 }
 

@@ -91,7 +91,7 @@ fn what_the_study_does_not_have_is_an_error() {
 
 #[test]
 fn kinds_have_names_of_their_own() {
-    let mut names: Vec<&str> = QUESTIONS.iter().flat_map(|q| q.readme()).map(|kind| kind.name).collect();
+    let mut names: Vec<&str> = QUESTIONS.iter().flat_map(|q| q.readme).map(|kind| kind.name).collect();
     let all = names.len();
     names.sort_unstable();
     names.dedup();

@@ -23,52 +23,38 @@ impl BuiltinStudy {
     }
 }
 
-const STUDIES: &[BuiltinStudy] = &[
-    BuiltinStudy { name: "quick", toml: include_str!("../../../../benchmarks/studies/quick.toml") },
-    BuiltinStudy { name: "vfi-table1", toml: include_str!("../../../../benchmarks/studies/vfi-table1.toml") },
-    BuiltinStudy { name: "vfi-fig09", toml: include_str!("../../../../benchmarks/studies/vfi-fig09.toml") },
-    BuiltinStudy {
-        name: "vfi-table1-high",
-        toml: include_str!("../../../../benchmarks/studies/vfi-table1-high.toml"),
-    },
-    BuiltinStudy {
-        name: "vfi-fig09-high",
-        toml: include_str!("../../../../benchmarks/studies/vfi-fig09-high.toml"),
-    },
-    BuiltinStudy {
-        name: "vfi-ablations",
-        toml: include_str!("../../../../benchmarks/studies/vfi-ablations.toml"),
-    },
-    BuiltinStudy { name: "vfi-guide", toml: include_str!("../../../../benchmarks/studies/vfi-guide.toml") },
-    BuiltinStudy { name: "vfi-kappa", toml: include_str!("../../../../benchmarks/studies/vfi-kappa.toml") },
-    BuiltinStudy {
-        name: "vfi-check-640",
-        toml: include_str!("../../../../benchmarks/studies/vfi-check-640.toml"),
-    },
-    BuiltinStudy { name: "rdfc-fig02", toml: include_str!("../../../../benchmarks/studies/rdfc-fig02.toml") },
-    BuiltinStudy { name: "rdfc-fig03", toml: include_str!("../../../../benchmarks/studies/rdfc-fig03.toml") },
-    BuiltinStudy { name: "rdfc-fig04", toml: include_str!("../../../../benchmarks/studies/rdfc-fig04.toml") },
-    BuiltinStudy { name: "rdfc-fig05", toml: include_str!("../../../../benchmarks/studies/rdfc-fig05.toml") },
-    BuiltinStudy { name: "rdfc-fig06", toml: include_str!("../../../../benchmarks/studies/rdfc-fig06.toml") },
-    BuiltinStudy { name: "rdfc-fig07", toml: include_str!("../../../../benchmarks/studies/rdfc-fig07.toml") },
-    BuiltinStudy { name: "rdfc-fig08", toml: include_str!("../../../../benchmarks/studies/rdfc-fig08.toml") },
-    BuiltinStudy { name: "rdfc-fig09", toml: include_str!("../../../../benchmarks/studies/rdfc-fig09.toml") },
-    BuiltinStudy {
-        name: "rdfc-profiles",
-        toml: include_str!("../../../../benchmarks/studies/rdfc-profiles.toml"),
-    },
-    BuiltinStudy {
-        name: "rdfc-spacetime",
-        toml: include_str!("../../../../benchmarks/studies/rdfc-spacetime.toml"),
-    },
-    BuiltinStudy {
-        name: "geometric-claim",
-        toml: include_str!("../../../../benchmarks/studies/geometric-claim.toml"),
-    },
-    BuiltinStudy {
-        name: "geometric-size",
-        toml: include_str!("../../../../benchmarks/studies/geometric-size.toml"),
-    },
+/// Studies by the names of their files.
+macro_rules! studies {
+    ($($name:literal),+ $(,)?) => {
+        &[$(BuiltinStudy {
+            name: $name,
+            toml: include_str!(concat!("../../../../benchmarks/studies/", $name, ".toml")),
+        }),+]
+    };
+}
+
+const STUDIES: &[BuiltinStudy] = studies![
+    "quick",
+    "vfi-table1",
+    "vfi-fig09",
+    "vfi-table1-high",
+    "vfi-fig09-high",
+    "vfi-ablations",
+    "vfi-guide",
+    "vfi-kappa",
+    "vfi-check-640",
+    "rdfc-fig02",
+    "rdfc-fig03",
+    "rdfc-fig04",
+    "rdfc-fig05",
+    "rdfc-fig06",
+    "rdfc-fig07",
+    "rdfc-fig08",
+    "rdfc-fig09",
+    "rdfc-profiles",
+    "rdfc-spacetime",
+    "geometric-claim",
+    "geometric-size",
 ];
 
 /// The studies that come with the program, in display order.
