@@ -1,4 +1,5 @@
-//! Arrows between the files of a crate go down only: whoever uses a file is not used by it, directly or around.
+//! Arrows between the files of a crate go down only: whoever uses a file is not used by it, directly or around. And no
+//! file lies in a crate that does not have it.
 //!
 //! An arrow is a `use` of an item that another file of the same crate defines. That a file is declared by another (`mod`)
 //! is no arrow, nor is anything in tests. A name that a file only hands on (`pub use`) leads to where it comes from.
@@ -202,6 +203,27 @@ fn arrows_inside_crates_go_down_only() {
     }
     assert!(looked > 500, "only {looked} arrows: the files are not read as they are written");
     assert!(wrong.is_empty(), "files in circles:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn every_file_is_part_of_its_crate() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates");
+    for entry in std::fs::read_dir(crates).unwrap() {
+        let source = entry.unwrap().path().join("src");
+        let mut files = Files::new();
+        read(&source, &[], &mut files);
+        for module in files.keys() {
+            let Some((name, parent)) = module.split_last() else { continue };
+            // By `mod`, or by its name in a list that a macro declares.
+            let declares = |line: &str| {
+                let declared =
+                    line.rsplit("mod ").next().unwrap_or_default().trim().trim_end_matches([';', ',']);
+                declared == name
+            };
+            let declared = files.get(parent).is_some_and(|text| text.lines().any(declares));
+            assert!(declared, "{}: no file declares {}", source.display(), module.join("::"));
+        }
+    }
 }
 
 /// Crates of ours that a crate needs, itself among them, development dependencies left out.
