@@ -15,8 +15,8 @@ pub(super) struct Finding {
     pub(super) label: String,
     /// Share of the pixels whose squared error grew.
     pub(super) grew: Interval,
-    /// Share of the pixels where that is more than the reference's noise explains.
-    pub(super) surely: Interval,
+    /// Share of the pixels where that is more than the reference's noise explains; nothing where that is not known.
+    pub(super) surely: Option<Interval>,
     /// What growth adds, over the squared error of the input.
     pub(super) added: Interval,
     /// What shrinking takes away, over the same.
@@ -58,7 +58,8 @@ fn finding(scene: &str, spp: u32, label: &str, records: &[&Record]) -> Option<Fi
         spp,
         label: label.to_owned(),
         grew: mean(&|a| share(a.grew, a))?,
-        surely: mean(&|a| share(a.surely, a))?,
+        // All replicates have the same reference: all know it or none. Means leave out what is no number.
+        surely: mean(&|a| a.surely.map_or(f64::NAN, |surely| share(surely, a))),
         added: mean(&|a| a.added)?,
         removed: mean(&|a| a.removed)?,
     })

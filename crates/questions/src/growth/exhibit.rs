@@ -60,7 +60,7 @@ fn row(view: &View<'_>, f: &Finding) -> TableRow {
         TableCell::count(f.spp.into()),
         view.row_cell(&f.label),
         percent(&f.grew),
-        percent(&f.surely),
+        f.surely.as_ref().map_or_else(TableCell::none, percent),
         share(&f.added),
         share(&f.removed),
     ])

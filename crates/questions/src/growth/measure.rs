@@ -18,8 +18,8 @@ pub(super) struct Answer {
     pub(super) pixels: u64,
     /// Of those: pixels whose squared error grew.
     pub(super) grew: u64,
-    /// Of those: by more than the reference's noise explains.
-    pub(super) surely: u64,
+    /// Of those: by more than the reference's noise explains. Nothing where it does not state its variance.
+    pub(super) surely: Option<u64>,
     /// Sum of the growth where it is positive, over the squared error of the input.
     pub(super) added: f64,
     /// Sum of the shrinking where it is negative, over the same.
@@ -45,7 +45,7 @@ fn growth(input: &Image, output: &Image, reference: &Reference) -> Option<Answer
         return None;
     }
     let variance = reference.frame.color.variance.as_ref().map(Variance::mean_variance);
-    let (mut out, mut before) = (Answer::default(), 0.0);
+    let (mut out, mut before, mut surely) = (Answer::default(), 0.0, 0);
     for pixel in 0..truth.pixels() {
         let at = |image: &Image, c: usize| f64::from(image.plane(c)[pixel]);
         let (mut grown, mut noise, mut squared) = (0.0, 0.0, 0.0);
@@ -54,16 +54,17 @@ fn growth(input: &Image, output: &Image, reference: &Reference) -> Option<Answer
             // The product form: no difference of two nearly equal squares.
             grown += (d - x) * ((d - r) + (x - r));
             squared += (x - r) * (x - r);
-            noise += 4.0 * (d - x) * (d - x) * variance.map_or(0.0, |v| at(v, c).max(0.0));
+            // Channels share their noise, so standard deviations add at worst. NaN without a right variance: not sure.
+            noise += 2.0 * (d - x).abs() * variance.map_or(f64::NAN, |v| at(v, c).sqrt());
         }
-        if !(grown.is_finite() && squared.is_finite() && noise.is_finite()) {
+        if !(grown.is_finite() && squared.is_finite()) {
             continue;
         }
         out.pixels += 1;
         before += squared;
         if grown > 0.0 {
             out.grew += 1;
-            out.surely += u64::from(grown > SURE * noise.sqrt());
+            surely += u64::from(grown > SURE * noise);
             out.added += grown;
         } else {
             out.removed -= grown;
@@ -73,6 +74,7 @@ fn growth(input: &Image, output: &Image, reference: &Reference) -> Option<Answer
     (before > 0.0 && before.is_finite()).then(|| Answer {
         added: out.added / before,
         removed: out.removed / before,
+        surely: variance.map(|_| surely),
         ..out
     })
 }
@@ -88,7 +90,7 @@ mod tests {
         // Mended, made worse, left alone, spoilt; squared errors 0.25 → 0, 0.25 → 1, 0 → 0, 0 → 4 per channel.
         let output = Image::from_fn(4, 1, 3, |_, x, _| [1.0, 2.0, 1.0, 3.0][x]);
         let found = growth(&input, &output, &Reference::exact(truth.clone())).unwrap();
-        assert_eq!((found.pixels, found.grew, found.surely), (4, 2, 2));
+        assert_eq!((found.pixels, found.grew, found.surely), (4, 2, Some(2)));
         assert!((found.added - (0.75 + 4.0) / 0.5).abs() < 1e-12 && (found.removed - 0.5).abs() < 1e-12);
         let mut holed = output;
         holed.set(1, 3, 0, f32::NAN);
@@ -101,9 +103,23 @@ mod tests {
         let mut reference = Reference::exact(Image::filled(2, 1, 3, 1.0));
         reference.frame.color.variance = Some(Variance::of_mean(Image::filled(2, 1, 3, 0.01)));
         let input = Image::filled(2, 1, 3, 1.1);
-        // Growth 3·(1.12² … ): (0.02·0.22)·3 = 0.0132 of a standard deviation 2·0.02·0.1·√3 = 0.0069; and 3·0.9·1.1 of 0.31.
-        let output = Image::from_fn(2, 1, 3, |_, x, _| [1.12, 2.0][x]);
+        // Growth 3·0.3·0.5 = 0.45 beside 3·(3·2·0.3·0.1) = 0.54 for channels that share their noise (if each had its own,
+        // 0.31); and 3·0.9·1.1 = 2.97 beside 1.62.
+        let output = Image::from_fn(2, 1, 3, |_, x, _| [1.4, 2.0][x]);
         let found = growth(&input, &output, &reference).unwrap();
-        assert_eq!((found.grew, found.surely), (2, 1));
+        assert_eq!((found.grew, found.surely), (2, Some(1)));
+        let broken = Image::from_fn(2, 1, 3, |_, x, _| [0.01, f32::NAN][x]);
+        reference.frame.color.variance = Some(Variance::of_mean(broken));
+        let found = growth(&input, &output, &reference).unwrap();
+        assert_eq!((found.pixels, found.grew, found.surely), (2, 2, Some(0)));
+    }
+
+    #[test]
+    fn without_a_variance_of_the_reference_nothing_is_said_to_be_sure() {
+        let mut reference = Reference::exact(Image::filled(2, 1, 3, 1.0));
+        reference.frame.color.variance = None;
+        let (input, output) = (Image::filled(2, 1, 3, 1.1), Image::filled(2, 1, 3, 2.0));
+        let found = growth(&input, &output, &reference).unwrap();
+        assert_eq!((found.grew, found.surely), (2, None));
     }
 }
