@@ -5,8 +5,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use noisefloor_denoiser::{
-    Adaptive, Citation, Claim, DenoiseError, Denoiser, Input, MethodCard, Need, NoParams, Output, Parameters,
-    Registry, Unit, mc, method, parameters,
+    Adaptive, Bound, Citation, Claim, DenoiseError, Denoiser, Input, MethodCard, Need, NoParams, Output,
+    Parameters, Registry, Unit, mc, method, parameters,
 };
 use noisefloor_frame::Image;
 use noisefloor_harness::{HarnessError, Observer, StudyRun, Workload};
@@ -108,6 +108,35 @@ impl Denoiser for Judge {
     }
 }
 
+/// The input, with what it tells of this very image.
+struct Talker(TalkerParams);
+
+parameters! {
+    /// For tests.
+    struct TalkerParams {
+        /// Half-width of the bound that it states.
+        width: f32 = 1.0, number(0.0..);
+        /// Its own seconds.
+        seconds: f64 = 0.0, number(..);
+    }
+}
+
+impl Denoiser for Talker {
+    fn card(&self) -> MethodCard {
+        MethodCard::new("talker", "Talker", CITATION)
+    }
+
+    fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
+        let mean = &input.target.color.mean;
+        let mut output = Output::from_image(mean.clone());
+        let half_width = Image::filled(mean.width(), mean.height(), 3, self.0.width);
+        output.bounds = vec![Bound { name: "of this image".into(), level: Level::TWO_SIDED_95, half_width }];
+        output.seconds = Some(self.0.seconds);
+        output.log = "read, thought, wrote\n".into();
+        Ok(output)
+    }
+}
+
 /// The input, which wants samples on the left only, and looks at frames beside it.
 struct Seeker(SeekerParams);
 
@@ -196,9 +225,10 @@ pub fn registry() -> Registry {
     let blur = method("blur", "box blur", None, |p: BlurParams| p.check().map(|()| Blur(p)));
     let judge = method("judge", "judge of itself", None, |p: JudgeParams| Ok(Judge(p)));
     let seeker = method("seeker", "seeks samples", None, |p: SeekerParams| Ok(Seeker(p)));
+    let talker = method("talker", "tells of its image", None, |p: TalkerParams| Ok(Talker(p)));
     let troubles = ["needy", "fails", "panics", "shrinks", "nan"]
         .map(|id| method(id, "a test", None, move |_: NoParams| Ok(Trouble(id))));
-    Registry::new([mc(), blur, judge, seeker].into_iter().chain(troubles))
+    Registry::new([mc(), blur, judge, seeker, talker].into_iter().chain(troubles))
 }
 
 /// Counts, and stops after a number of cells if asked.

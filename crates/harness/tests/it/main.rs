@@ -19,3 +19,4 @@ mod shots;
 mod sizes;
 mod statistics;
 mod superseded;
+mod told;
