@@ -5,6 +5,7 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
+use noisefloor_kernels::InstructionSet;
 use noisefloor_metrics::Metric;
 
 use crate::exit;
@@ -30,6 +31,9 @@ pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub verb: Option<Verb>,
+    /// Filter with another instruction set than the best: portable, avx2 or avx512. Results have the same bits
+    #[arg(long, global = true, hide = true, value_name = "LEVEL")]
+    pub instruction_set: Option<InstructionSet>,
 }
 
 /// The verbs.

@@ -46,6 +46,10 @@ pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode 
         Ok(args) => args,
         Err(asked) => return help(&asked).into(),
     };
+    if let Some(Err(error)) = args.instruction_set.map(noisefloor_kernels::InstructionSet::force) {
+        note!("noisefloor: {error}");
+        return Exit::Usage.into();
+    }
     let context = context::Context::new(extra);
     let done = match args.verb.unwrap_or_default() {
         args::Verb::Run(verb) => run::run(&context, &verb),

@@ -45,7 +45,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
         size,
         again: &args.again,
         command: command(args),
-        simd: noisefloor_kernels::InstructionSet::best().name().to_owned(),
+        simd: noisefloor_kernels::InstructionSet::in_use().name().to_owned(),
         observer: &watcher,
     };
     interrupt::catch()?;

@@ -76,7 +76,7 @@ impl<'a> Cone<'a> {
 
     /// The filtered image: Listing, line 1.
     pub fn filter(&self) -> Image {
-        self.filter_at(InstructionSet::best())
+        self.filter_at(InstructionSet::in_use())
     }
 
     /// The same with a given instruction set.

@@ -8,17 +8,11 @@
 //!
 //! This is the only crate of the workspace that may use `unsafe`.
 
+mod engine;
 pub mod flash_filter;
-mod grid;
 #[doc(hidden)]
 pub mod inside;
-mod instruction_set;
-mod mirror;
 pub mod nlm;
-mod simd;
-mod tiles;
-mod vectorised;
+mod real;
 
-pub use instruction_set::InstructionSet;
-pub use mirror::mirror;
-pub use vectorised::Vectorised;
+pub use engine::{InstructionSet, NotForced, UnknownInstructionSet, Vectorised, mirror};

@@ -5,6 +5,7 @@ use std::process::{Command, Output};
 
 use noisefloor::io::{read_color, write_frame};
 use noisefloor::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
+use noisefloor_kernels::InstructionSet;
 use serde_json::Value;
 
 const SIZE: (usize, usize) = (40, 30);
@@ -94,6 +95,28 @@ fn a_sound_frame_is_denoised_without_a_word() {
     assert_eq!(done(&place.denoise("rdfc", &[])), "");
     let json: Value = serde_json::from_slice(&place.denoise("mc", &["--json"]).stdout).unwrap();
     assert_eq!(json["findings"], Value::Array(Vec::new()));
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_image() {
+    let place = Place::with(&sound());
+    for method in ["rdfc", "geometric-corrected"] {
+        done(&place.denoise(method, &[]));
+        let best = place.image();
+        assert_ne!(best, sound().color.mean);
+        for level in InstructionSet::ALL {
+            let output = place.denoise(method, &["--instruction-set", level.name()]);
+            if level.is_available() {
+                done(&output);
+                assert_eq!(place.image(), best, "{method} with {level}");
+            } else {
+                assert!(refused(&output).contains("does not have the instruction set"));
+            }
+        }
+    }
+    assert!(
+        refused(&place.denoise("mc", &["--instruction-set", "sse"])).contains("portable, avx2 and avx512")
+    );
 }
 
 #[test]

@@ -49,7 +49,7 @@ pub(crate) fn step(
     inputs: &FlashInputs<'_>,
     along: Option<&Along<'_>>,
 ) -> Result<(Image, Option<Image>), DenoiseError> {
-    let (params, level) = (kernel_params(frame, step, patch), InstructionSet::best());
+    let (params, level) = (kernel_params(frame, step, patch), InstructionSet::in_use());
     let mut image = Image::new(frame.width(), frame.height(), 3);
     let Some(along) = along else {
         flash_filter::filter_into(&params, inputs, level, planes_mut(&mut image)).map_err(kernel_error)?;

@@ -1,7 +1,7 @@
 //! Looking inside the filter: how many pixels are homogeneous with each, and which ones for a chosen pixel.
 
 use super::members::Tests;
-use super::naive::WeightsF64;
+use super::naive::Weights;
 use super::{FlashFilterError, FlashInputs, FlashParams};
 
 /// The window around one pixel: who belongs to its set, and with what weight.
@@ -62,7 +62,7 @@ pub fn homogeneous_window(
         return Err(FlashFilterError::PixelOutside { x, y, width: w, height: h });
     }
     let tests = Tests::new(inputs);
-    let weights = WeightsF64::new(params, inputs);
+    let weights = Weights::<f64>::new(params, inputs);
     let r = params.window_radius as isize;
     let side = 2 * params.window_radius + 1;
     let mut window = HomogeneousWindow {

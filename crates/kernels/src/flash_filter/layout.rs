@@ -5,8 +5,7 @@
 //! marked as outside while copying), keeps memory use independent of the image, and lets rows start where the
 //! caches like them: aligned, at a distance of an odd number of cache lines, planes staggered.
 
-use crate::grid::{Grid, LINE};
-use crate::simd::MAX_LANES;
+use crate::engine::{Grid, LINE, MAX_LANES};
 
 /// Most horizontal offsets that one pass over a tile handles together.
 pub(super) const BLOCK: usize = 16;

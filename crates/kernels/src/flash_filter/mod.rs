@@ -36,7 +36,7 @@ pub use params::{
     MAX_WINDOW_RADIUS, Membership, PatchWeights,
 };
 
-use crate::InstructionSet;
+use crate::engine::{InstructionSet, TILE};
 
 /// Filters with the fastest instruction set of this machine. Returns three planes of width·height values.
 ///
@@ -67,14 +67,7 @@ pub fn filter(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32
     params.check(inputs)?;
     let mut out = [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let [r, g, b] = &mut out;
-    tiled::filter(
-        params,
-        inputs,
-        None,
-        InstructionSet::best(),
-        tiled::TILE,
-        [r, g, b].map(Vec::as_mut_slice),
-    );
+    tiled::filter(params, inputs, None, InstructionSet::in_use(), TILE, [r, g, b].map(Vec::as_mut_slice));
     Ok(out)
 }
 
@@ -111,7 +104,7 @@ pub fn filter_carrying(
     let planes = || [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let mut out = Filtered { image: planes(), carried: planes() };
     let all = out.image.iter_mut().chain(&mut out.carried).map(Vec::as_mut_slice);
-    tiled::filter(params, inputs, Some(carried), InstructionSet::best(), tiled::TILE, all);
+    tiled::filter(params, inputs, Some(carried), InstructionSet::in_use(), TILE, all);
     Ok(out)
 }
 
@@ -131,7 +124,7 @@ pub fn filter_carrying_into(
     params.check_carried(carried)?;
     check_output(params, level, &image)?;
     check_output(params, level, &sums)?;
-    tiled::filter(params, inputs, Some(carried), level, tiled::TILE, image.into_iter().chain(sums));
+    tiled::filter(params, inputs, Some(carried), level, TILE, image.into_iter().chain(sums));
     Ok(())
 }
 
@@ -147,7 +140,7 @@ pub fn filter_into(
 ) -> Result<(), FlashFilterError> {
     params.check(inputs)?;
     check_output(params, level, &out)?;
-    tiled::filter(params, inputs, None, level, tiled::TILE, out);
+    tiled::filter(params, inputs, None, level, TILE, out);
     Ok(())
 }
 

@@ -6,132 +6,124 @@
 
 use super::members::Tests;
 use super::{Carried, Filtered, FlashFilterError, FlashInputs, FlashParams};
-use crate::mirror::mirror;
+use crate::engine::mirror;
+use crate::real::Real;
 
-macro_rules! naive_twin {
-    ($real:ident, $weights:ident, $sums:ident, $(#[$doc:meta])* $filter:ident) => {
-        /// Weights of neighbours, whether or not they belong to the set.
-        #[derive(Debug)]
-        pub(super) struct $weights<'a> {
-            params: &'a FlashParams,
-            inputs: &'a FlashInputs<'a>,
-            /// 1/(2σ_s²).
-            spatial: $real,
-            /// Patch weights G in rows.
-            patch: Vec<$real>,
-        }
+/// Weights of neighbours, whether or not they belong to the set.
+#[derive(Debug)]
+pub(super) struct Weights<'a, R> {
+    params: &'a FlashParams,
+    inputs: &'a FlashInputs<'a>,
+    /// 1/(2σ_s²).
+    spatial: R,
+    /// Patch weights G in rows.
+    patch: Vec<R>,
+}
 
-        impl<'a> $weights<'a> {
-            pub fn new(params: &'a FlashParams, inputs: &'a FlashInputs<'a>) -> Self {
-                let f = params.patch.radius() as isize;
-                let tap = |i: isize| params.patch.tap(i.unsigned_abs());
-                let patch = (-f..=f).flat_map(|j| (-f..=f).map(move |i| (tap(j) * tap(i)) as $real)).collect();
-                // The largest finite number, so that offset 0 has exponent 0 for any σ_s.
-                let spatial = (0.5 / f64::from(params.spatial_sigma).powi(2)).min($real::MAX.into()) as $real;
-                Self { params, inputs, spatial, patch }
-            }
+impl<'a, R: Real> Weights<'a, R> {
+    pub fn new(params: &'a FlashParams, inputs: &'a FlashInputs<'a>) -> Self {
+        let f = params.patch.radius() as isize;
+        let tap = |i: isize| params.patch.tap(i.unsigned_abs());
+        let patch = (-f..=f).flat_map(|j| (-f..=f).map(move |i| R::round(tap(j) * tap(i)))).collect();
+        // The largest finite number, so that offset 0 has exponent 0 for any σ_s.
+        let spatial = R::round((0.5 / f64::from(params.spatial_sigma).powi(2)).min(R::MAX.into()));
+        Self { params, inputs, spatial, patch }
+    }
 
-            /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1: g_s·g_r of Eq. 1.
-            #[inline]
-            pub fn weight(&self, (px, py): (isize, isize), (qx, qy): (isize, isize)) -> $real {
-                let (w, h) = (self.params.width, self.params.height);
-                let offset = ((qx - px).pow(2) + (qy - py).pow(2)) as $real;
-                let Some(guide) = self.inputs.guide else { return (-offset * self.spatial).exp() };
-                // Sec. 3.2: weighted squared distance of the patches u(F_p) and u(F_q).
-                let f = self.params.patch.radius() as isize;
-                let mut distance = 0.0;
-                let mut taps = self.patch.iter();
-                for j in -f..=f {
-                    let (p_row, q_row) = (mirror(py + j, h) * w, mirror(qy + j, h) * w);
-                    for (i, tap) in (-f..=f).zip(&mut taps) {
-                        let (a, b) = (p_row + mirror(px + i, w), q_row + mirror(qx + i, w));
-                        let mut square = 0.0;
-                        for plane in guide.planes {
-                            let difference = plane[a] as $real - plane[b] as $real;
-                            square += difference * difference;
-                        }
-                        distance += tap * square;
-                    }
+    /// Weight of neighbour `q` = (x, y) for pixel `p`, 0 to 1: g_s·g_r of Eq. 1.
+    #[inline]
+    pub fn weight(&self, (px, py): (isize, isize), (qx, qy): (isize, isize)) -> R {
+        let (w, h) = (self.params.width, self.params.height);
+        let offset = R::round(((qx - px).pow(2) + (qy - py).pow(2)) as f64);
+        let Some(guide) = self.inputs.guide else { return (-offset * self.spatial).exp() };
+        // Sec. 3.2: weighted squared distance of the patches u(F_p) and u(F_q).
+        let f = self.params.patch.radius() as isize;
+        let mut distance = R::from(0.0);
+        let mut taps = self.patch.iter();
+        for j in -f..=f {
+            let (p_row, q_row) = (mirror(py + j, h) * w, mirror(qy + j, h) * w);
+            for (i, tap) in (-f..=f).zip(&mut taps) {
+                let (a, b) = (p_row + mirror(px + i, w), q_row + mirror(qx + i, w));
+                let mut square = R::from(0.0);
+                for plane in guide.planes {
+                    let difference = R::from(plane[a]) - R::from(plane[b]);
+                    square += difference * difference;
                 }
-                if distance.is_finite() {
-                    // The smaller σ_r² of the pair is ours, as Sec. 4 asks for proportionality and no more.
-                    let sigma_r2 = |x: isize, y: isize| guide.sigma_r2[y as usize * w + x as usize] as $real;
-                    let pair = sigma_r2(px, py).min(sigma_r2(qx, qy));
-                    (-offset * self.spatial - distance / 3.0 / (2.0 * pair)).exp()
-                } else {
-                    // Overflow: nothing alike.
-                    0.0
-                }
+                distance += *tap * square;
             }
         }
-
-        $(#[$doc])*
-        ///
-        /// # Errors
-        /// As [`FlashParams::check`].
-        pub fn $filter(
-            params: &FlashParams,
-            inputs: &FlashInputs<'_>,
-        ) -> Result<[Vec<$real>; 3], FlashFilterError> {
-            params.check(inputs)?;
-            Ok($sums(params, inputs, None).image)
+        if distance.into().is_finite() {
+            // The smaller σ_r² of the pair is ours, as Sec. 4 asks for proportionality and no more.
+            let sigma_r2 = |x: isize, y: isize| R::from(guide.sigma_r2[y as usize * w + x as usize]);
+            let pair = sigma_r2(px, py).min(sigma_r2(qx, qy));
+            (-offset * self.spatial - distance / R::from(3.0) / (R::from(2.0) * pair)).exp()
+        } else {
+            // Overflow: nothing alike.
+            R::from(0.0)
         }
+    }
+}
 
-        /// The loop itself, on checked inputs: Eq. 1 over the set of Eq. 2.
-        fn $sums(
-            params: &FlashParams,
-            inputs: &FlashInputs<'_>,
-            carried: Option<&Carried<'_>>,
-        ) -> Filtered<$real> {
-            let tests = Tests::new(inputs);
-            let weights = $weights::new(params, inputs);
-            let (w, h, r) = (params.width as isize, params.height as isize, params.window_radius as isize);
-            let planes = || [(); 3].map(|()| Vec::with_capacity(params.width * params.height));
-            let mut out = Filtered { image: planes(), carried: planes() };
-            let (along, squared) = carried.map_or(([&[][..]; 3], false), Carried::parts);
-            for (py, px) in (0..h).flat_map(|y| (0..w).map(move |x| (y, x))) {
-                let p = (py * w + px) as usize;
-                let [mut sum, mut total, mut other] = [[0.0 as $real; 3]; 3];
-                for qy in (py - r).max(0)..=(py + r).min(h - 1) {
-                    for qx in (px - r).max(0)..=(px + r).min(w - 1) {
-                        let q = (qy * w + qx) as usize;
-                        // Eq. 2.
-                        let members = tests.members(p, q);
-                        if members == [false; 3] {
-                            continue;
-                        }
-                        let weight = weights.weight((px, py), (qx, qy));
-                        for c in (0..3).filter(|&c| members[c]) {
-                            sum[c] += weight * (inputs.source[c][q] as $real - inputs.source[c][p] as $real);
-                            total[c] += weight;
-                            if carried.is_some() {
-                                other[c] += if squared { weight * weight } else { weight } * along[c][q] as $real;
-                            }
-                        }
-                    }
+/// The loop itself, on checked inputs: Eq. 1 over the set of Eq. 2.
+fn sums<R: Real>(
+    params: &FlashParams,
+    inputs: &FlashInputs<'_>,
+    carried: Option<&Carried<'_>>,
+) -> Filtered<R> {
+    let tests = Tests::new(inputs);
+    let weights = Weights::<R>::new(params, inputs);
+    let (w, h, r) = (params.width as isize, params.height as isize, params.window_radius as isize);
+    let planes = || [(); 3].map(|()| Vec::with_capacity(params.width * params.height));
+    let mut out = Filtered { image: planes(), carried: planes() };
+    let (along, squared) = carried.map_or(([&[][..]; 3], false), Carried::parts);
+    for (py, px) in (0..h).flat_map(|y| (0..w).map(move |x| (y, x))) {
+        let p = (py * w + px) as usize;
+        let [mut sum, mut total, mut other] = [[R::from(0.0); 3]; 3];
+        for qy in (py - r).max(0)..=(py + r).min(h - 1) {
+            for qx in (px - r).max(0)..=(px + r).min(w - 1) {
+                let q = (qy * w + qx) as usize;
+                // Eq. 2.
+                let members = tests.members(p, q);
+                if members == [false; 3] {
+                    continue;
                 }
-                for c in 0..3 {
-                    // Eq. 1. The pixel itself has weight exp(0) = 1, so k(p), the sum of weights, is at least 1.
-                    out.image[c].push(inputs.source[c][p] as $real + sum[c] / total[c]);
+                let weight = weights.weight((px, py), (qx, qy));
+                for c in (0..3).filter(|&c| members[c]) {
+                    sum[c] += weight * (R::from(inputs.source[c][q]) - R::from(inputs.source[c][p]));
+                    total[c] += weight;
                     if carried.is_some() {
-                        out.carried[c].push(other[c] / if squared { total[c] * total[c] } else { total[c] });
+                        other[c] += if squared { weight * weight } else { weight } * R::from(along[c][q]);
                     }
                 }
             }
-            out
         }
-    };
+        for c in 0..3 {
+            // Eq. 1. The pixel itself has weight exp(0) = 1, so k(p), the sum of weights, is at least 1.
+            out.image[c].push(R::from(inputs.source[c][p]) + sum[c] / total[c]);
+            if carried.is_some() {
+                out.carried[c].push(other[c] / if squared { total[c] * total[c] } else { total[c] });
+            }
+        }
+    }
+    out
 }
 
-naive_twin! {
-    f64, WeightsF64, sums_f64,
-    /// The filter in double precision: the oracle.
-    filter_f64
+/// The filter in double precision: the oracle.
+///
+/// # Errors
+/// As [`FlashParams::check`].
+pub fn filter_f64(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f64>; 3], FlashFilterError> {
+    params.check(inputs)?;
+    Ok(sums(params, inputs, None).image)
 }
-naive_twin! {
-    f32, WeightsF32, sums_f32,
-    /// The same loops in single precision: what a first implementation would be, and the baseline of speed ratios.
-    filter_f32
+
+/// The same loops in single precision: what a first implementation would be, and the baseline of speed ratios.
+///
+/// # Errors
+/// As [`FlashParams::check`].
+pub fn filter_f32(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32>; 3], FlashFilterError> {
+    params.check(inputs)?;
+    Ok(sums(params, inputs, None).image)
 }
 
 /// [`super::filter_carrying`] in double precision: its oracle.
@@ -145,5 +137,5 @@ pub fn filter_carrying_f64(
 ) -> Result<Filtered<f64>, FlashFilterError> {
     params.check(inputs)?;
     params.check_carried(carried)?;
-    Ok(sums_f64(params, inputs, Some(carried)))
+    Ok(sums(params, inputs, Some(carried)))
 }

@@ -1,7 +1,7 @@
 //! Parameters and input planes of the flash filter, and the check that both make sense. All limits are ours.
 
 use super::FlashFilterError;
-use crate::tiles::first_bad;
+use crate::engine::first_bad;
 
 /// Largest window radius in pixels.
 pub const MAX_WINDOW_RADIUS: usize = 32;

@@ -1,20 +1,11 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{self, Block, JOINT, SEPARATE, SINGLE, TileView};
+use super::hot::{JOINT, Offsets, SEPARATE, SINGLE, Step, TileView};
 use super::layout::{BLOCK, Layout};
 use super::members::{EVERYTHING, Tests, half_width};
 use super::params::MAX_PATCH_RADIUS;
 use super::{Carried, FlashInputs, FlashParams};
-use crate::InstructionSet;
-use crate::grid::Grid;
-use crate::mirror::mirror;
-use crate::simd::Portable;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::{Avx2, Avx512};
-use crate::tiles::{Tile, TileRows, for_each_tile};
-
-/// Tile of the fast form, (width, height) in pixels.
-pub(super) const TILE: (usize, usize) = (64, 16);
+use crate::engine::{Block, Copies, InstructionSet, Plane, Scratch, Tile, TileRows, Window, for_each_tile};
 
 /// Value of source pixels outside the image. It differs from every pixel by more than any half-width, so that the
 /// membership test clips the window, and stays finite in all that follows.
@@ -76,104 +67,107 @@ pub(crate) fn filter<'o>(
         params.width,
         tile_size,
         out,
-        || Scratch::new(&job.layout),
+        || Scratch::new(job.sizes().iter().sum()),
         |scratch, tile, rows| {
             job.run(scratch, tile, rows);
         },
     );
 }
 
-/// One worker's memory.
-struct Scratch {
-    memory: Vec<f32>,
-    /// Index of the first cache line that starts in `memory`.
-    start: usize,
-}
-
-impl Scratch {
-    fn new(layout: &Layout) -> Self {
-        let planes = 8 * layout.source.plane
-            + 3 * layout.guide.plane
-            + 12 * layout.pixel.plane
-            + BLOCK * layout.columns.plane;
-        let memory = vec![0.0f32; planes + 16];
-        // `align_offset` may give up and say usize::MAX; alignment is for speed only.
-        let start = memory.as_ptr().align_offset(64).min(16);
-        Self { memory, start }
-    }
-}
-
 impl Job<'_> {
+    /// Values of a worker's parts: source, guide, half-widths, factors, carried planes, sums, columns.
+    fn sizes(&self) -> [usize; 7] {
+        let Layout { source, guide, pixel, columns, .. } = self.layout;
+        [
+            4 * source.plane,
+            3 * guide.plane,
+            3 * pixel.plane,
+            source.plane,
+            3 * source.plane,
+            9 * pixel.plane,
+            BLOCK * columns.plane,
+        ]
+    }
+
     fn run(&self, scratch: &mut Scratch, tile: Tile, out: Vec<TileRows<'_>>) {
-        let layout = &self.layout;
-        let memory = &mut scratch.memory[scratch.start..];
-        let (source, memory) = memory.split_at_mut(4 * layout.source.plane);
-        let (guide, memory) = memory.split_at_mut(3 * layout.guide.plane);
-        let (half_width, memory) = memory.split_at_mut(3 * layout.pixel.plane);
-        let (factor, memory) = memory.split_at_mut(layout.source.plane);
-        let (carried, memory) = memory.split_at_mut(3 * layout.source.plane);
-        let (sums, columns) = memory.split_at_mut(9 * layout.pixel.plane);
+        let [source, guide, half_width, factor, carried, sums, columns] = scratch.parts(self.sizes());
         let guided = self.inputs.guide.is_some();
-        self.copy_source(tile, source);
-        self.copy_guide(tile, guide);
-        self.copy_factor(tile, factor);
-        self.copy_carried(tile, carried);
+        let copies = Copies { width: self.params.width, height: self.params.height, tile };
+        self.copy_source(&copies, source);
+        self.copy_guide(&copies, guide);
+        self.copy_factor(&copies, factor);
+        self.copy_carried(&copies, carried);
         self.fill_half_widths(tile, half_width);
         sums.fill(0.0);
-        let mut view = TileView {
-            layout,
-            width: tile.width,
-            source,
-            guide: if guided { guide } else { &[] },
-            half_width,
-            factor: if guided { factor } else { &[] },
-            carried: if self.carried.is_some() { carried } else { &[] },
-            squared: self.carried.is_some_and(|carried| carried.parts().1),
-            sums,
-            columns,
-            taps: self.taps,
+        // SAFETY: the parts have the sizes of the layout, whose copies reach as far around the tile as the window and the
+        // patch do, and a vector more; the walk keeps offsets within the reach and rows within the tile.
+        let mut view = unsafe {
+            TileView {
+                layout: &self.layout,
+                width: tile.width,
+                source: Plane::vouched(source),
+                guide: guided.then(|| Plane::vouched(guide)),
+                half_width: Plane::vouched(half_width),
+                factor: Plane::vouched(factor),
+                carried: self.carried.map(|_| Plane::vouched(carried)),
+                squared: self.squared(),
+                sums: Plane::vouched_mut(sums),
+                columns: Plane::vouched_mut(columns),
+                taps: self.taps,
+            }
         };
-        self.sweep(&mut view, tile);
-        self.finish(&view, tile, out);
+        let (width, height) = (self.params.width, self.params.height);
+        for block in (Window { width, height, reach: self.layout.reach }).blocks(tile, BLOCK) {
+            let offsets = self.offsets(block);
+            self.level.launch(Step { tile: &mut view, offsets: &offsets, rule: self.rule });
+        }
+        self.finish(source, sums, tile, out);
     }
 
-    /// Copies one plane with its surroundings on the source's grid, outside the image `outside`.
-    fn copy_plane(&self, tile: Tile, from: &[f32], to: &mut [f32], outside: f32) {
-        let grid = &self.layout.source;
-        for (j, row) in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch).enumerate() {
-            let row = &mut row[..grid.columns];
-            let y = (tile.y + j).checked_sub(grid.above).filter(|&y| y < self.params.height);
-            let Some(y) = y else {
-                row.fill(outside);
-                continue;
+    fn squared(&self) -> bool {
+        self.carried.is_some_and(|carried| carried.parts().1)
+    }
+
+    /// A block with what it holds for each offset: the exponent of the spatial weight, or without a guide the weight itself.
+    fn offsets(&self, block: Block) -> Offsets {
+        let mut spatial = [0.0; BLOCK];
+        for (o, value) in spatial.iter_mut().enumerate().take(block.count) {
+            let squared = block.dy.pow(2) + (block.dx + o as isize).pow(2);
+            let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
+            *value = match self.inputs.guide {
+                Some(_) => exponent as f32,
+                None => exponent.exp2() as f32,
             };
-            let from = &from[y * self.params.width..][..self.params.width];
-            // Columns of the image that the row shows, and where they start in it.
-            let first = tile.x.saturating_sub(grid.left);
-            let skip = grid.left.saturating_sub(tile.x);
-            let count = (from.len() - first).min(row.len() - skip);
-            row[..skip].fill(outside);
-            row[skip..skip + count].copy_from_slice(&from[first..first + count]);
-            row[skip + count..].fill(outside);
         }
+        Offsets { block, spatial }
     }
 
     /// Copies the source and the tested plane, outside the image [`OUTSIDE`].
-    fn copy_source(&self, tile: Tile, to: &mut [f32]) {
-        let mut planes = to.chunks_exact_mut(self.layout.source.plane);
+    fn copy_source(&self, copies: &Copies, to: &mut [f32]) {
+        let grid = &self.layout.source;
+        let mut planes = to.chunks_exact_mut(grid.plane);
         for (plane, to) in self.inputs.source.into_iter().zip(&mut planes) {
-            self.copy_plane(tile, plane, to, OUTSIDE);
+            copies.marked(grid, plane, to, OUTSIDE);
         }
         if let (SINGLE, Tests::Shared(tests), Some(to)) = (self.rule, &self.tests, planes.next()) {
-            self.copy_plane(tile, &tests[0].values, to, OUTSIDE);
+            copies.marked(grid, &tests[0].values, to, OUTSIDE);
+        }
+    }
+
+    /// Copies the guide with its surroundings, mirrored at the border of the image.
+    fn copy_guide(&self, copies: &Copies, to: &mut [f32]) {
+        let Some(guide) = self.inputs.guide else { return };
+        let grid = &self.layout.guide;
+        for (plane, to) in guide.planes.into_iter().zip(to.chunks_exact_mut(grid.plane)) {
+            copies.mirrored(grid, plane, to, 1.0);
         }
     }
 
     /// Copies the factors that the guide's widths give. Pixels outside the image get that of 1, as their weight is 0
     /// whatever it is.
-    fn copy_factor(&self, tile: Tile, to: &mut [f32]) {
+    fn copy_factor(&self, copies: &Copies, to: &mut [f32]) {
         let Some(guide) = self.inputs.guide else { return };
-        self.copy_plane(tile, guide.sigma_r2, to, 1.0);
+        copies.marked(&self.layout.source, guide.sigma_r2, to, 1.0);
         for value in to {
             // Finite, so that distance 0 gives exponent 0 whatever the width.
             *value = (self.range / f64::from(*value)).max(f64::from(f32::MIN)) as f32;
@@ -181,35 +175,11 @@ impl Job<'_> {
     }
 
     /// Copies carried planes, outside the image 0.
-    fn copy_carried(&self, tile: Tile, to: &mut [f32]) {
+    fn copy_carried(&self, copies: &Copies, to: &mut [f32]) {
         let Some(carried) = self.carried else { return };
-        let planes = to.chunks_exact_mut(self.layout.source.plane);
-        for (plane, to) in carried.parts().0.into_iter().zip(planes) {
-            self.copy_plane(tile, plane, to, 0.0);
-        }
-    }
-
-    /// Copies the guide with its surroundings, mirrored at the border of the image.
-    fn copy_guide(&self, tile: Tile, to: &mut [f32]) {
-        let Some(guide) = self.inputs.guide else { return };
-        let grid: &Grid = &self.layout.guide;
-        let (width, height) = (self.params.width, self.params.height);
-        let start = tile.x as isize - grid.left as isize;
-        let inside = start >= 0 && start as usize + grid.columns <= width;
-        for (c, from) in guide.planes.into_iter().enumerate() {
-            let to = &mut to[c * grid.plane..][..grid.rows * grid.pitch];
-            for (j, row) in to.chunks_exact_mut(grid.pitch).enumerate() {
-                let row = &mut row[..grid.columns];
-                let y = mirror(tile.y as isize + j as isize - grid.above as isize, height);
-                let from = &from[y * width..][..width];
-                if inside {
-                    row.copy_from_slice(&from[start as usize..][..grid.columns]);
-                } else {
-                    for (i, value) in row.iter_mut().enumerate() {
-                        *value = from[mirror(start + i as isize, width)];
-                    }
-                }
-            }
+        let grid = &self.layout.source;
+        for (plane, to) in carried.parts().0.into_iter().zip(to.chunks_exact_mut(grid.plane)) {
+            copies.marked(grid, plane, to, 0.0);
         }
     }
 
@@ -236,74 +206,24 @@ impl Job<'_> {
         }
     }
 
-    /// Runs over the window, row by row, each row in blocks of offsets: the same order for every pixel.
-    fn sweep(&self, view: &mut TileView<'_>, tile: Tile) {
-        let reach = self.layout.reach as isize;
-        let (width, height) = (self.params.width as isize, self.params.height as isize);
-        let (x, y) = (tile.x as isize, tile.y as isize);
-        let last = (x + tile.width as isize - 1, y + tile.height as isize - 1);
-        // Offsets for which some pixel of the tile has its neighbour inside the image.
-        let (left, right) = ((-reach).max(-last.0), reach.min(width - 1 - x));
-        let (top, bottom) = ((-reach).max(-last.1), reach.min(height - 1 - y));
-        for dy in top..=bottom {
-            let rows = (-dy - y).max(0) as usize..(height - dy - y).min(tile.height as isize) as usize;
-            let mut dx = left;
-            while dx <= right {
-                let count = ((right - dx + 1) as usize).min(BLOCK);
-                let mut spatial = [0.0; BLOCK];
-                for (o, value) in spatial.iter_mut().enumerate().take(count) {
-                    *value = self.spatial(dy, dx + o as isize);
-                }
-                let block = Block { rows: rows.clone(), dy, dx, count, spatial };
-                self.dispatch(view, &block);
-                dx += BLOCK as isize;
-            }
-        }
-    }
-
-    /// What a block holds for one offset: the exponent of the spatial weight, or without a guide the weight itself.
-    fn spatial(&self, dy: isize, dx: isize) -> f32 {
-        let squared = dy.pow(2) + dx.pow(2);
-        let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
-        match self.inputs.guide {
-            Some(_) => exponent as f32,
-            None => exponent.exp2() as f32,
-        }
-    }
-
-    fn dispatch(&self, view: &mut TileView<'_>, block: &Block) {
-        // SAFETY: `filter_into` refused levels that this machine lacks; views are made by `run` in the sizes of
-        // the layout; `sweep` keeps offsets within the reach and rows within the tile.
-        unsafe {
-            match self.level {
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx512 => pass_avx512(view, block, self.rule),
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx2 => pass_avx2(view, block, self.rule),
-                _ => hot::pass::<Portable>(view, block, self.rule),
-            }
-        }
-    }
-
     /// Divides the sums and writes the tile's result.
-    fn finish(&self, view: &TileView<'_>, tile: Tile, out: Vec<TileRows<'_>>) {
+    fn finish(&self, centers: &[f32], sums: &[f32], tile: Tile, out: Vec<TileRows<'_>>) {
         let (source, pixel) = (&self.layout.source, &self.layout.pixel);
         for (plane, rows) in out.into_iter().enumerate() {
             let c = plane % 3;
             let set = if self.rule == SEPARATE { c } else { 0 };
             for (j, row) in rows.into_iter().enumerate() {
                 let here = j * pixel.pitch;
-                let weights = &view.sums[(3 + set) * pixel.plane + here..][..tile.width];
+                let weights = &sums[(3 + set) * pixel.plane + here..][..tile.width];
                 if plane >= 3 {
-                    let sums = &view.sums[(6 + c) * pixel.plane + here..][..tile.width];
+                    let sums = &sums[(6 + c) * pixel.plane + here..][..tile.width];
                     for ((value, sum), weight) in row.iter_mut().zip(sums).zip(weights) {
-                        *value = if view.squared { sum / (weight * weight) } else { sum / weight };
+                        *value = if self.squared() { sum / (weight * weight) } else { sum / weight };
                     }
                     continue;
                 }
-                let sums = &view.sums[c * pixel.plane + here..][..tile.width];
-                let center =
-                    &view.source[c * source.plane + source.origin() + j * source.pitch..][..tile.width];
+                let sums = &sums[c * pixel.plane + here..][..tile.width];
+                let center = &centers[c * source.plane + source.origin() + j * source.pitch..][..tile.width];
                 for (i, value) in row.iter_mut().enumerate() {
                     // Eq. 1. The pixel itself has weight 1, so the weight sum is at least 1. Its own step of 0 also keeps
                     // the mean step a relative 1/n below the largest of n steps, hence below the half-width, by
@@ -313,22 +233,4 @@ impl Job<'_> {
             }
         }
     }
-}
-
-/// # Safety
-/// As [`hot::pass`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
-unsafe fn pass_avx512(view: &mut TileView<'_>, block: &Block, rule: usize) {
-    // SAFETY: passed on unchanged.
-    unsafe { hot::pass::<Avx512>(view, block, rule) }
-}
-
-/// # Safety
-/// As [`hot::pass`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-unsafe fn pass_avx2(view: &mut TileView<'_>, block: &Block, rule: usize) {
-    // SAFETY: passed on unchanged.
-    unsafe { hot::pass::<Avx2>(view, block, rule) }
 }

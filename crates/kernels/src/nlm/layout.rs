@@ -4,8 +4,7 @@
 //! weight zero, and rows start where the caches like them.
 
 use super::params::NlmInputs;
-use crate::grid::{Grid, LINE};
-use crate::simd::MAX_LANES;
+use crate::engine::{Grid, LINE, MAX_LANES};
 
 /// Most horizontal offsets that one pass over a tile handles together.
 pub(super) const MAX_BLOCK: usize = 7;

@@ -38,7 +38,7 @@ pub use params::{
     Perturbation, Planes, Rule,
 };
 
-use crate::InstructionSet;
+use crate::engine::{InstructionSet, TILE};
 
 /// Filters with the fastest instruction set of this machine: for each pass all targets.
 ///
@@ -65,7 +65,7 @@ pub fn filter(
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
 ) -> Result<Vec<Filtered>, NlmError> {
-    filter_at(params, passes, inputs, InstructionSet::best())
+    filter_at(params, passes, inputs, InstructionSet::in_use())
 }
 
 /// Filters with a given instruction set. Every level gives the same bits.
@@ -82,5 +82,5 @@ pub fn filter_at(
     if !level.is_available() {
         return Err(NlmError::LevelUnavailable { level });
     }
-    Ok(tiled::filter(params, passes, inputs, level, tiled::TILE))
+    Ok(tiled::filter(params, passes, inputs, level, TILE))
 }

@@ -1,21 +1,12 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{self, Block, Constants, HotPass, LOCAL, PENALTY, TileView};
+use super::hot::{Constants, HotPass, LOCAL, PENALTY, Step, TileView};
 use super::layout::{KINDS, LARGEST, Layout, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
 use super::naive::LARGEST as LARGEST_SQUARE;
 use super::params::{
     Center, Denominator, Filtered, GuideDenominator, NlmInputs, NlmParams, Pass, Planes, Rule,
 };
-use crate::InstructionSet;
-use crate::grid::Grid;
-use crate::mirror::mirror;
-use crate::simd::Portable;
-#[cfg(target_arch = "x86_64")]
-use crate::simd::{Avx2, Avx512};
-use crate::tiles::{Tile, TileRows, for_each_tile};
-
-/// Tile of the fast form, (width, height) in pixels.
-pub(super) const TILE: (usize, usize) = (64, 16);
+use crate::engine::{Copies, InstructionSet, Plane, Scratch, Tile, TileRows, Window, for_each_tile};
 
 /// One call's constants, shared by all workers.
 struct Job<'a> {
@@ -144,7 +135,7 @@ fn sweep(
         params.width,
         tile_size,
         planes,
-        || Scratch::new(&job),
+        || job.scratch(),
         |scratch, tile, rows| job.run(scratch, tile, rows),
     );
     out
@@ -162,197 +153,117 @@ fn feature_scale(params: &NlmParams) -> f64 {
     -std::f64::consts::LOG2_E / f64::from(params.feature_k).powi(2)
 }
 
-/// One worker's memory.
-struct Scratch {
-    memory: Vec<f32>,
-    /// Index of the first cache line that starts in `memory`.
-    start: usize,
-}
-
-impl Scratch {
-    fn new(job: &Job<'_>) -> Self {
-        let layout = &job.layout;
-        let frames = if job.inputs.neighbors.is_empty() { 1 } else { 2 };
-        let planes = frames * layout.guide_size()
-            + layout.area_size()
-            + layout.pixel_size()
-            + layout.sums(job.passes.len())
-            + layout.columns_size()
-            + LOCAL;
-        // Room to align, and for the vectors that start on the last values.
-        let memory = vec![0.0f32; planes + 64];
-        // `align_offset` may give up and say usize::MAX; alignment is for speed only.
-        let start = memory.as_ptr().align_offset(64).min(16);
-        Self { memory, start }
-    }
-}
-
 impl Job<'_> {
-    fn run(&self, scratch: &mut Scratch, tile: Tile, out: Vec<TileRows<'_>>) {
+    fn scratch(&self) -> Scratch {
+        Scratch::new(self.sizes().iter().sum())
+    }
+
+    /// Values of a worker's parts: guide here, guide there, pixels, sums, area, local, columns.
+    fn sizes(&self) -> [usize; 7] {
         let layout = &self.layout;
-        let memory = &mut scratch.memory[scratch.start..];
-        let (here, memory) = memory.split_at_mut(layout.guide_size());
-        let other = if self.inputs.neighbors.is_empty() { 0 } else { layout.guide_size() };
-        let (there, memory) = memory.split_at_mut(other);
-        let (pixel, memory) = memory.split_at_mut(layout.pixel_size());
-        let (sums, memory) = memory.split_at_mut(layout.sums(self.passes.len()));
-        let (area, memory) = memory.split_at_mut(layout.area_size());
-        let (local, columns) = memory.split_at_mut(LOCAL);
-        self.copy_guide(tile, &self.inputs.frame, here);
-        self.fill_pixels(tile, pixel);
+        let there = if self.inputs.neighbors.is_empty() { 0 } else { layout.guide_size() };
+        [
+            layout.guide_size(),
+            there,
+            layout.pixel_size(),
+            layout.sums(self.passes.len()),
+            layout.area_size(),
+            LOCAL,
+            layout.columns_size(),
+        ]
+    }
+
+    fn run(&self, scratch: &mut Scratch, tile: Tile, out: Vec<TileRows<'_>>) {
+        let [here, there, pixel, sums, area, local, columns] = scratch.parts(self.sizes());
+        let copies = Copies { width: self.params.width, height: self.params.height, tile };
+        self.copy_guide(&copies, &self.inputs.frame, here);
+        self.fill_pixels(&copies, pixel);
         sums.fill(0.0);
         for t in 0..=self.inputs.neighbors.len() {
             let frame = if t == 0 { &self.inputs.frame } else { &self.inputs.neighbors[t - 1] };
-            self.copy_area(tile, frame, area);
+            self.copy_area(&copies, frame, area);
             if t > 0 {
-                self.copy_guide(tile, frame, there);
+                self.copy_guide(&copies, frame, there);
             }
-            let mut view = TileView {
-                layout,
-                passes: &self.passes,
-                width: tile.width,
-                here,
-                there: if t == 0 { here } else { there },
-                area,
-                pixel,
-                sums,
-                columns,
-                local,
-                constants: self.constants,
+            // SAFETY: the parts have the sizes of the layout, whose copies reach as far around the tile as the window and
+            // the patch do, and a block and a vector more; the walk keeps offsets within the reach and rows within the tile.
+            let mut view = unsafe {
+                TileView {
+                    layout: &self.layout,
+                    passes: &self.passes,
+                    width: tile.width,
+                    same_frame: t == 0,
+                    here: Plane::vouched(here),
+                    there: Plane::vouched(if t == 0 { here } else { there }),
+                    area: Plane::vouched(area),
+                    pixel: Plane::vouched(pixel),
+                    sums: Plane::vouched_mut(sums),
+                    columns: Plane::vouched_mut(columns),
+                    local: Plane::vouched_mut(local),
+                    constants: self.constants,
+                }
             };
-            self.search(&mut view, tile, t == 0);
+            for block in self.window().blocks(tile, self.group) {
+                self.level.launch(Step { tile: &mut view, block: &block, group: self.group });
+            }
         }
         self.finish(sums, pixel, tile, out);
     }
 
+    fn window(&self) -> Window {
+        Window { width: self.params.width, height: self.params.height, reach: self.layout.reach }
+    }
+
     /// Copies a frame's guide and variances with their surroundings, mirrored at the border. Variances are scaled by
     /// k², because that is how denominators have them; scaled values would lose what close ones differ by.
-    fn copy_guide(&self, tile: Tile, frame: &Planes<'_>, to: &mut [f32]) {
+    fn copy_guide(&self, copies: &Copies, frame: &Planes<'_>, to: &mut [f32]) {
         let grid = &self.layout.guide;
         let (k, channels) = (self.params.k, self.layout.channels);
         for (c, channel) in frame.guide.iter().enumerate().take(channels) {
-            self.copy(tile, grid, channel.value, &mut to[c * grid.plane..], 1.0);
-            self.copy(tile, grid, channel.variance, &mut to[(channels + c) * grid.plane..], k * k);
+            copies.mirrored(grid, channel.value, &mut to[c * grid.plane..], 1.0);
+            copies.mirrored(grid, channel.variance, &mut to[(channels + c) * grid.plane..], k * k);
         }
     }
 
     /// Copies what is read at neighbours, and marks those outside the image.
-    fn copy_area(&self, tile: Tile, frame: &Planes<'_>, to: &mut [f32]) {
+    fn copy_area(&self, copies: &Copies, frame: &Planes<'_>, to: &mut [f32]) {
         let layout = &self.layout;
         let grid = &layout.area;
         for (c, channel) in frame.features.iter().flatten().enumerate() {
-            self.copy(tile, grid, channel.value, &mut to[layout.area_feature(0, c)..], 1.0);
-            self.copy(tile, grid, channel.variance, &mut to[layout.area_feature(1, c)..], 1.0);
+            copies.mirrored(grid, channel.value, &mut to[layout.area_feature(0, c)..], 1.0);
+            copies.mirrored(grid, channel.variance, &mut to[layout.area_feature(1, c)..], 1.0);
             if self.constants.pair {
-                self.copy(tile, grid, channel.spread, &mut to[layout.area_feature(2, c)..], 1.0);
+                copies.mirrored(grid, channel.spread, &mut to[layout.area_feature(2, c)..], 1.0);
             }
         }
         for (k, target) in frame.targets.iter().enumerate() {
-            self.copy(tile, grid, target, &mut to[layout.area_target(k)..], 1.0);
+            copies.mirrored(grid, target, &mut to[layout.area_target(k)..], 1.0);
         }
-        let penalty = &mut to[layout.area_penalty()..][..grid.rows * grid.pitch];
-        for row in penalty.chunks_exact_mut(grid.pitch) {
-            for (i, value) in row.iter_mut().enumerate() {
-                let inside = (tile.x + i).checked_sub(grid.left).is_some_and(|x| x < self.params.width);
-                *value = if inside { 0.0 } else { PENALTY };
-            }
-        }
-    }
-
-    /// Copies the part of a plane that a grid shows, mirrored at the border of the image.
-    fn copy(&self, tile: Tile, grid: &Grid, from: &[f32], to: &mut [f32], factor: f32) {
-        let (width, height) = (self.params.width, self.params.height);
-        let start = tile.x as isize - grid.left as isize;
-        let inside = start >= 0 && start as usize + grid.columns <= width;
-        for (j, row) in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch).enumerate() {
-            let row = &mut row[..grid.columns];
-            let y = mirror(tile.y as isize + j as isize - grid.above as isize, height);
-            let from = &from[y * width..][..width];
-            if inside {
-                for (value, from) in row.iter_mut().zip(&from[start as usize..]) {
-                    *value = from * factor;
-                }
-            } else {
-                for (i, value) in row.iter_mut().enumerate() {
-                    *value = from[mirror(start + i as isize, width)] * factor;
-                }
-            }
-        }
+        copies.mark_columns(grid, &mut to[layout.area_penalty()..], PENALTY);
     }
 
     /// Fills in what each pixel of the tile compares with and scales by.
-    fn fill_pixels(&self, tile: Tile, to: &mut [f32]) {
+    fn fill_pixels(&self, copies: &Copies, to: &mut [f32]) {
         let (layout, grid) = (&self.layout, &self.layout.pixel);
-        let mut rows = |plane: usize, from: &[f32], map: &dyn Fn(f32) -> f32| {
-            for j in 0..tile.height {
-                let first = (tile.y + j) * self.params.width + tile.x;
-                let row = &mut to[plane + j * grid.pitch..][..tile.width];
-                for (value, &from) in row.iter_mut().zip(&from[first..]) {
-                    *value = map(from);
-                }
-            }
-        };
         let scale = feature_scale(self.params);
         let counts = self.inputs.frame.features.iter().flat_map(|f| f.iter().map(|_| f.len()));
         for ((c, channel), count) in self.inputs.frame.features.iter().flatten().enumerate().zip(counts) {
-            rows(layout.pixel_feature(0, c), channel.value, &|v| v);
-            rows(layout.pixel_feature(1, c), channel.variance, &|v| -v);
+            copies.own(grid, channel.value, &mut to[layout.pixel_feature(0, c)..], |v| v);
+            copies.own(grid, channel.variance, &mut to[layout.pixel_feature(1, c)..], |v| -v);
             for (i, floor) in self.constants.floors.into_iter().enumerate() {
-                let plane = layout.pixel_feature(2 + i, c);
+                let to = &mut to[layout.pixel_feature(2 + i, c)..];
                 if self.constants.pair {
-                    rows(plane, channel.spread, &|s| s.max(floor));
+                    copies.own(grid, channel.spread, to, |s| s.max(floor));
                 } else {
                     // τ is above 0.
                     let scale = scale / count as f64;
-                    rows(plane, channel.spread, &|s| (scale / f64::from(s.max(floor))) as f32);
+                    copies.own(grid, channel.spread, to, |s| (scale / f64::from(s.max(floor))) as f32);
                 }
             }
         }
         if let Some(perturbation) = self.inputs.perturbation.filter(|_| self.constants.derivative) {
             for (c, step) in perturbation.step.into_iter().enumerate() {
-                rows(layout.pixel_step(c), step, &|v| v);
-            }
-        }
-    }
-
-    /// Runs over the window, row by row, each row in blocks of offsets: the same order for every pixel.
-    fn search(&self, view: &mut TileView<'_>, tile: Tile, same_frame: bool) {
-        let reach = self.layout.reach as isize;
-        let (width, height) = (self.params.width as isize, self.params.height as isize);
-        let (x, y) = (tile.x as isize, tile.y as isize);
-        let last = (x + tile.width as isize - 1, y + tile.height as isize - 1);
-        // Offsets for which some pixel of the tile has its neighbour inside the image.
-        let (left, right) = ((-reach).max(-last.0), reach.min(width - 1 - x));
-        let (top, bottom) = ((-reach).max(-last.1), reach.min(height - 1 - y));
-        for dy in top..=bottom {
-            let rows = (-dy - y).max(0) as usize..(height - dy - y).min(tile.height as isize) as usize;
-            let mut dx = left;
-            while dx <= right {
-                let count = ((right - dx + 1) as usize).min(self.group);
-                let near = same_frame && self.near(dy, dx);
-                self.dispatch(view, &Block { rows: rows.clone(), dy, dx, count, same_frame, near });
-                dx += self.group as isize;
-            }
-        }
-    }
-
-    /// Whether some offset of a block is so small that p is a tap of its neighbour's patch, and that counts.
-    fn near(&self, dy: isize, dx: isize) -> bool {
-        let patch = self.layout.patches.first().map_or(-1, |&f| f as isize);
-        let (constants, last) = (&self.constants, dx + self.group as isize - 1);
-        constants.derivative && !constants.joint && dy.abs() <= patch && dx <= patch && last >= -patch
-    }
-
-    fn dispatch(&self, view: &mut TileView<'_>, block: &Block) {
-        // SAFETY: the callers of `filter` refuse levels that this machine lacks; views are made by `run` in the sizes
-        // of the layout; `search` keeps offsets within the reach and rows within the tile.
-        unsafe {
-            match self.level {
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx512 => pass_avx512(view, block, self.group),
-                #[cfg(target_arch = "x86_64")]
-                InstructionSet::Avx2 => pass_avx2(view, block, self.group),
-                _ => hot::pass::<Portable>(view, block, self.group),
+                copies.own(grid, step, &mut to[layout.pixel_step(c)..], |v| v);
             }
         }
     }
@@ -423,22 +334,4 @@ impl Job<'_> {
             }
         }
     }
-}
-
-/// # Safety
-/// As [`hot::pass`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq")]
-unsafe fn pass_avx512(view: &mut TileView<'_>, block: &Block, group: usize) {
-    // SAFETY: passed on unchanged.
-    unsafe { hot::pass::<Avx512>(view, block, group) }
-}
-
-/// # Safety
-/// As [`hot::pass`].
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2,fma")]
-unsafe fn pass_avx2(view: &mut TileView<'_>, block: &Block, group: usize) {
-    // SAFETY: passed on unchanged.
-    unsafe { hot::pass::<Avx2>(view, block, group) }
 }

@@ -2,17 +2,26 @@
 
 use std::arch::x86_64::*;
 
-use super::operations::{ROUND, Simd};
+use super::simd::ROUND;
+use super::{InstructionSet, Plane, Simd};
 
 /// Eight lanes in a `ymm` register, truth values as all-ones or all-zeros lanes.
-#[derive(Debug)]
-pub(crate) struct Avx2;
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Avx2(());
 
-macro_rules! lanewise {
-    ($($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
+impl Avx2 {
+    /// The token, where the processor has the instruction set.
+    pub fn new() -> Option<Self> {
+        InstructionSet::Avx2.is_available().then_some(Self(()))
+    }
+}
+
+macro_rules! operations {
+    ($($name:ident($($arg:ident: $of:ty),+) $(-> $result:ty)? = $value:expr;)+) => {$(
         #[inline(always)]
-        unsafe fn $name($($arg: $of),+) -> $result {
-            // SAFETY: the caller vouches for AVX2 and FMA, and nothing here touches memory.
+        fn $name(self, $($arg: $of),+) $(-> $result)? {
+            // SAFETY: a token exists, so the processor has AVX2 and FMA; planes are vouched for by who made them, and these
+            // loads and stores need no alignment.
             unsafe { $value }
         }
     )+};
@@ -23,7 +32,11 @@ impl Simd for Avx2 {
     type F = __m256;
     type M = __m256;
 
-    lanewise! {
+    operations! {
+        load(plane: &Plane, at: usize) -> __m256 = _mm256_loadu_ps(plane.from(at, 8));
+        // Moving parts of two registers into one takes more instructions here than the loads that cross a cache line cost.
+        load_beside(plane: &Plane, at: usize, i: usize) -> __m256 = _mm256_loadu_ps(plane.from(at + i, 8));
+        store(plane: &mut Plane, at: usize, value: __m256) = _mm256_storeu_ps(plane.to(at, 8), value);
         splat(value: f32) -> __m256 = _mm256_set1_ps(value);
         add(a: __m256, b: __m256) -> __m256 = _mm256_add_ps(a, b);
         sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b);
@@ -47,24 +60,5 @@ impl Simd for Avx2 {
             let scaled = _mm256_add_epi32(_mm256_castps_si256(value), shift);
             _mm256_and_ps(mask, _mm256_castsi256_ps(scaled))
         };
-    }
-
-    #[inline(always)]
-    unsafe fn load(from: *const f32) -> __m256 {
-        // SAFETY: the caller vouches for eight readable values; this load needs no alignment.
-        unsafe { _mm256_loadu_ps(from) }
-    }
-
-    #[inline(always)]
-    unsafe fn load_beside(from: *const f32, i: usize) -> __m256 {
-        // SAFETY: the caller vouches for sixteen readable values. Moving parts of two registers into one takes more
-        // instructions here than the loads that cross a cache line cost.
-        unsafe { _mm256_loadu_ps(from.add(i)) }
-    }
-
-    #[inline(always)]
-    unsafe fn store(to: *mut f32, value: __m256) {
-        // SAFETY: the caller vouches for eight writable values; this store needs no alignment.
-        unsafe { _mm256_storeu_ps(to, value) }
     }
 }

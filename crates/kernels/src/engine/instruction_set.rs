@@ -1,6 +1,13 @@
 //! Instruction sets that the fast kernels are compiled for, and the choice among them at run time.
 
 use std::fmt;
+use std::str::FromStr;
+use std::sync::atomic::{AtomicU8, Ordering};
+
+use thiserror::Error;
+
+/// What [`InstructionSet::in_use`] gives: 0 for the best, else 1 + the place among [`InstructionSet::ALL`].
+static FORCED: AtomicU8 = AtomicU8::new(0);
 
 /// An instruction set. All levels of a kernel give the same bits; they differ in speed only.
 ///
@@ -37,6 +44,26 @@ impl InstructionSet {
         }
     }
 
+    /// The level that methods filter with: the best, unless another is [forced](InstructionSet::force).
+    pub fn in_use() -> InstructionSet {
+        let place = usize::from(FORCED.load(Ordering::Relaxed));
+        place.checked_sub(1).map_or_else(Self::best, |i| Self::ALL[i.min(Self::ALL.len() - 1)])
+    }
+
+    /// Makes all methods of this process filter with this level: for tests of equal bits, and to time one level on a
+    /// machine that has a better one.
+    ///
+    /// # Errors
+    /// [`NotForced`] where this processor does not have it; nothing changes then.
+    pub fn force(self) -> Result<(), NotForced> {
+        if !self.is_available() {
+            return Err(NotForced { level: self });
+        }
+        let place = Self::ALL.iter().position(|&level| level == self).map_or(0, |i| i + 1);
+        FORCED.store(place as u8, Ordering::Relaxed);
+        Ok(())
+    }
+
     /// Whether this level can run here.
     pub fn is_available(self) -> bool {
         match self {
@@ -65,5 +92,30 @@ impl InstructionSet {
 impl fmt::Display for InstructionSet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// A processor without the instruction set.
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("this processor does not have the instruction set {level}")]
+pub struct NotForced {
+    /// What was asked for.
+    pub level: InstructionSet,
+}
+
+/// A word that is no instruction set's.
+#[derive(Clone, Debug, Error, PartialEq, Eq)]
+#[error("`{word}` is no instruction set; allowed are portable, avx2 and avx512")]
+pub struct UnknownInstructionSet {
+    /// What was asked for.
+    pub word: String,
+}
+
+impl FromStr for InstructionSet {
+    type Err = UnknownInstructionSet;
+
+    fn from_str(word: &str) -> Result<Self, UnknownInstructionSet> {
+        let level = Self::ALL.into_iter().find(|level| level.name() == word);
+        level.ok_or_else(|| UnknownInstructionSet { word: word.to_owned() })
     }
 }

@@ -1,9 +1,10 @@
 //! The operations over an array of eight values, in plain Rust.
 
-use super::operations::{ROUND, Simd};
+use super::simd::ROUND;
+use super::{Plane, Simd};
 
 /// Eight lanes that the compiler maps to whatever the target has.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
 const LANES: usize = 8;
@@ -11,7 +12,7 @@ const LANES: usize = 8;
 macro_rules! lanewise {
     ($($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
         #[inline(always)]
-        unsafe fn $name($($arg: [$of; LANES]),+) -> [$result; LANES] {
+        fn $name(self, $($arg: [$of; LANES]),+) -> [$result; LANES] {
             let mut out = [<$result>::default(); LANES];
             for i in 0..LANES {
                 $(let $arg = $arg[i];)+
@@ -44,7 +45,7 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    unsafe fn split(x: Self::F) -> (Self::F, Self::F) {
+    fn split(self, x: Self::F) -> (Self::F, Self::F) {
         let (mut f, mut n) = (x, x);
         for i in 0..LANES {
             n[i] = x[i] + ROUND;
@@ -54,25 +55,24 @@ impl Simd for Portable {
     }
 
     #[inline(always)]
-    unsafe fn splat(value: f32) -> Self::F {
+    fn splat(self, value: f32) -> Self::F {
         [value; LANES]
     }
 
     #[inline(always)]
-    unsafe fn load(from: *const f32) -> Self::F {
-        // SAFETY: the caller vouches for LANES readable values; an array of f32 needs no more alignment than one.
-        unsafe { from.cast::<Self::F>().read() }
+    fn load(self, plane: &Plane, at: usize) -> Self::F {
+        // SAFETY: the plane is vouched for; an array of f32 needs no more alignment than one.
+        unsafe { plane.from(at, LANES).cast::<Self::F>().read() }
     }
 
     #[inline(always)]
-    unsafe fn load_beside(from: *const f32, i: usize) -> Self::F {
-        // SAFETY: the caller vouches for 2·LANES readable values.
-        unsafe { Self::load(from.add(i)) }
+    fn load_beside(self, plane: &Plane, at: usize, i: usize) -> Self::F {
+        self.load(plane, at + i)
     }
 
     #[inline(always)]
-    unsafe fn store(to: *mut f32, value: Self::F) {
+    fn store(self, plane: &mut Plane, at: usize, value: Self::F) {
         // SAFETY: as in `load`, writable.
-        unsafe { to.cast::<Self::F>().write(value) }
+        unsafe { plane.to(at, LANES).cast::<Self::F>().write(value) }
     }
 }

@@ -5,6 +5,9 @@
 
 use rayon::prelude::*;
 
+/// Tile of the window filters, (width, height) in pixels: its working copies stay in the second cache.
+pub(crate) const TILE: (usize, usize) = (64, 16);
+
 /// A rectangle of pixels that lies inside the image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Tile {
