@@ -6,8 +6,11 @@
 use super::params::NlmInputs;
 use crate::engine::{Grid, LINE, MAX_LANES};
 
-/// Most horizontal offsets that one pass over a tile handles together.
-pub(super) const MAX_BLOCK: usize = 7;
+/// Most horizontal offsets whose values are loaded together.
+pub(super) const MAX_GROUP: usize = 7;
+
+/// Groups of offsets in a block: what one step over a tile does before it moves on.
+const GROUPS: usize = 3;
 
 /// Most different patch radii, and most different τ, that one sweep serves.
 pub(super) const KINDS: usize = 2;
@@ -17,6 +20,10 @@ pub(super) const KINDS: usize = 2;
 pub(super) struct Layout {
     /// Window radius r.
     pub reach: usize,
+    /// Horizontal offsets whose values are loaded together.
+    pub group: usize,
+    /// Horizontal offsets of a block.
+    pub block: usize,
     /// Patch radii in use, the largest first.
     pub patches: Vec<usize>,
     /// Guide channels.
@@ -45,16 +52,19 @@ impl Layout {
         patches: Vec<usize>,
         inputs: &NlmInputs<'_>,
     ) -> Self {
+        let group = group(2 * reach + 1);
         debug_assert!(tile_width.is_multiple_of(MAX_LANES) && tile_width > 0 && tile_height > 0);
         let patch = patches.first().copied().unwrap_or(0);
         // A whole number of lines on the left, so that the loads of the tile's own pixels are aligned.
         let left = reach.next_multiple_of(LINE);
         let with_patch = (tile_width + 2 * patch).next_multiple_of(MAX_LANES);
         // The last block of a row may look at offsets beyond the window; their weights are zero.
-        let right = reach + MAX_BLOCK;
+        let right = reach + MAX_GROUP;
         let features: Vec<usize> = inputs.frame.features.iter().map(Vec::len).collect();
         Self {
             reach,
+            group,
+            block: (GROUPS * group).min((2 * reach + 1).next_multiple_of(group)),
             channels: if patches.is_empty() { 0 } else { inputs.frame.guide.len() },
             feature_channels: features.iter().sum(),
             features,
@@ -115,13 +125,20 @@ impl Layout {
 
     /// Values of all column planes.
     pub fn columns_size(&self) -> usize {
-        self.patches.len() * MAX_BLOCK * self.columns.plane
+        self.patches.len() * self.block * self.columns.plane
     }
 
     /// Accumulator planes of pass `pass`: the targets' weighted sums first.
     pub fn sums(&self, pass: usize) -> usize {
         pass * (self.targets + SUMS) * self.pixel.plane
     }
+}
+
+/// Horizontal offsets per group for a window of `side` columns: the number that wastes the least.
+fn group(side: usize) -> usize {
+    let waste = |g: usize| side.div_ceil(g) * g - side;
+    // Wider groups first: they load each pixel's own values less often.
+    [7, 6, 3].into_iter().min_by_key(|&g| waste(g)).unwrap_or(7)
 }
 
 /// Accumulators of a pass after those of its targets.

@@ -16,8 +16,6 @@ struct Job<'a> {
     layout: Layout,
     level: InstructionSet,
     constants: Constants,
-    /// Horizontal offsets per block.
-    group: usize,
 }
 
 /// Runs checked passes. They are split into sweeps of at most two τ and one patch radius, or the radii 3 and 1: each
@@ -111,7 +109,6 @@ fn sweep(
             joint: inputs.perturbation.is_some_and(|p| p.rule == Rule::Joint),
             pair_scale: feature_scale(params) as f32,
         },
-        group: group(2 * params.window_radius + 1),
         passes: hot,
         layout,
         level,
@@ -139,13 +136,6 @@ fn sweep(
         |scratch, tile, rows| job.run(scratch, tile, rows),
     );
     out
-}
-
-/// Horizontal offsets per block for a window of `side` columns: the number that wastes the least.
-fn group(side: usize) -> usize {
-    let waste = |g: usize| side.div_ceil(g) * g - side;
-    // Wider blocks first: they load each pixel's own values less often.
-    [7, 6, 3].into_iter().min_by_key(|&g| waste(g)).unwrap_or(7)
 }
 
 /// Factor from Φ²·D to an exponent of 2.
@@ -203,8 +193,8 @@ impl Job<'_> {
                     constants: self.constants,
                 }
             };
-            for block in self.window().blocks(tile, self.group) {
-                self.level.launch(Step { tile: &mut view, block: &block, group: self.group });
+            for block in self.window().blocks(tile, self.layout.block) {
+                self.level.launch(Step { tile: &mut view, block: &block, group: self.layout.group });
             }
         }
         self.finish(sums, pixel, tile, out);

@@ -1,12 +1,12 @@
 //! What moving the guide at p changes in the patch distances (rousselle2013rdfc, Sec. 6, below Eq. 5).
 
 use super::distances::base;
-use super::tile::{Constants, EXCHANGED, OWN, Place, TileView, local};
-use crate::engine::{Block, Simd};
+use super::tile::{Constants, EXCHANGED, Group, OWN, Place, TileView, local};
+use crate::engine::Simd;
 
 /// Change of Δ² at the centre of the patches for each channel moved by its step (all at once: the sum, three times).
 #[inline(always)]
-pub(super) fn own_patch<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, place: Place) {
+pub(super) fn own_patch<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, group: &Group, place: Place) {
     let (layout, constants) = (tile.layout, tile.constants);
     for c in 0..3 {
         let (value, variance) = (c * layout.guide.plane, (3 + c) * layout.guide.plane);
@@ -19,8 +19,8 @@ pub(super) fn own_patch<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, 
             let vq = s.load_beside(tile.there, variance + place.there, o);
             s.store(tile.local, local(OWN + c, o), bend(s, s.sub(p, q), step, (vp, vq), base, &constants));
         }
-        if place.center < G {
-            s.store(tile.local, local(OWN + c, place.center), s.zero());
+        if group.center < G {
+            s.store(tile.local, local(OWN + c, group.center), s.zero());
         }
     }
     if constants.joint {
@@ -40,7 +40,7 @@ pub(super) fn own_patch<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, 
 pub(super) fn other_patch<S: Simd, const G: usize>(
     s: S,
     tile: &mut TileView<'_>,
-    block: &Block,
+    group: &Group,
     place: Place,
 ) {
     let (layout, constants) = (tile.layout, tile.constants);
@@ -51,10 +51,10 @@ pub(super) fn other_patch<S: Simd, const G: usize>(
         let vp = s.load(tile.here, variance + place.here);
         let step = s.load(tile.pixel, layout.pixel_step(c) + place.pixel);
         for o in 0..G {
-            let dx = block.dx + o as isize;
+            let dx = group.dx + o as isize;
             let mut change = s.zero();
-            if dx.abs() <= reach && o != place.center {
-                let shift = block.dy * layout.guide.pitch as isize + dx;
+            if dx.abs() <= reach && o != group.center {
+                let shift = group.dy * layout.guide.pitch as isize + dx;
                 let other = place.here.wrapping_add_signed(-shift);
                 let a = s.load(tile.here, value + other);
                 let va = s.load(tile.here, variance + other);

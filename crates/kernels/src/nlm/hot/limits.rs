@@ -1,7 +1,7 @@
 //! Feature weights (rousselle2013rdfc, Sec. 5, Eq. 3) as exponents of 2.
 
-use super::tile::{Place, TileView, local};
-use crate::engine::{Block, Simd};
+use super::tile::{Group, Place, TileView, local};
+use crate::engine::Simd;
 
 /// Exponent that makes a weight zero.
 pub(in crate::nlm) const PENALTY: f32 = -1e9;
@@ -9,12 +9,12 @@ pub(in crate::nlm) const PENALTY: f32 = -1e9;
 /// Exponents of 2 of the feature weights for both τ, at most 0; far below outside the image and for offsets that do
 /// not count.
 #[inline(always)]
-pub(super) fn limits<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Block, place: Place) {
+pub(super) fn limits<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, group: &Group, place: Place) {
     let (layout, constants) = (tile.layout, tile.constants);
-    let center = if constants.largest_center { place.center } else { usize::MAX };
+    let center = if constants.largest_center { group.center } else { usize::MAX };
     for o in 0..G {
         let penalty = s.load(tile.area, layout.area_penalty() + place.area + o);
-        let skip = o >= block.count || o == center;
+        let skip = o >= group.count || o == center;
         let limit = if skip { s.splat(PENALTY) } else { penalty };
         s.store(tile.local, local(0, o), limit);
         if constants.floor_count > 1 {

@@ -16,15 +16,14 @@ pub(super) use limits::PENALTY;
 pub(super) use tile::{Constants, HotPass, LOCAL, TileView};
 
 use self::distances::ColourDistance;
-use self::tile::{NO_PATCH, Place};
+use self::tile::{Group, NO_PATCH, Place};
 use crate::engine::{Block, Columns, Equal, Kernel, Simd};
-use crate::nlm::layout::MAX_BLOCK;
 
 /// Everything for one block of offsets.
 pub(super) struct Step<'t, 'a> {
     pub tile: &'t mut TileView<'a>,
     pub block: &'t Block,
-    /// Offsets that are handled together: 3, 6 or 7. Those after the block's have weight 0.
+    /// Offsets whose values are loaded together: 3, 6 or 7. Those after the block's have weight 0.
     pub group: usize,
 }
 
@@ -55,7 +54,7 @@ impl Kernel for Step<'_, '_> {
 #[inline(always)]
 fn columns<S: Simd, const BIG: usize, const SMALL: usize>(s: S, tile: &mut TileView<'_>, block: &Block) {
     let (guide, sums) = (tile.layout.guide, tile.layout.columns);
-    let walk = Columns { guide, sums, radii: MAX_BLOCK * sums.plane, width: tile.width };
+    let walk = Columns { guide, sums, radii: tile.layout.block * sums.plane, width: tile.width };
     let distance = ColourDistance {
         here: tile.here,
         there: tile.there,
@@ -66,27 +65,30 @@ fn columns<S: Simd, const BIG: usize, const SMALL: usize>(s: S, tile: &mut TileV
     walk.sum::<S, BIG, SMALL>(s, (&distance, &Equal), tile.columns, block, block.count);
 }
 
-/// Adds the block's offsets to the running sums of every pixel of the tile.
+/// Adds the block's offsets to the running sums of every pixel of the tile, vector by vector: what one reads of all planes
+/// stays in the first cache while the block's groups of `G` offsets pass over it.
 #[inline(always)]
 fn accumulate<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Block) {
     let (area, guide, pixel, columns) =
         (tile.layout.area, tile.layout.guide, tile.layout.pixel, tile.layout.columns);
-    let (center, near) = (tile.center(block), tile.near(block, G));
     for y in block.rows.clone() {
         let mut x = 0;
         while x < tile.width {
-            let here = guide.origin() + y * guide.pitch + x;
-            let shift = |pitch: usize| block.dy * pitch as isize + block.dx;
-            let place = Place {
-                center,
-                near,
-                pixel: y * pixel.pitch + x,
-                area: (area.origin() + y * area.pitch + x).wrapping_add_signed(shift(area.pitch)),
-                here,
-                there: here.wrapping_add_signed(shift(guide.pitch)),
-                columns: y * columns.pitch + x,
-            };
-            vector::<S, G>(s, tile, block, place);
+            let mut first = 0;
+            while first < block.count {
+                let group = Group::new(tile, block, first, G);
+                let shift = |pitch: usize| group.dy * pitch as isize + group.dx;
+                let here = guide.origin() + y * guide.pitch + x;
+                let place = Place {
+                    pixel: y * pixel.pitch + x,
+                    area: (area.origin() + y * area.pitch + x).wrapping_add_signed(shift(area.pitch)),
+                    here,
+                    there: here.wrapping_add_signed(shift(guide.pitch)),
+                    columns: first * columns.plane + y * columns.pitch + x,
+                };
+                vector::<S, G>(s, tile, &group, place);
+                first += G;
+            }
             x += S::LANES;
         }
     }
@@ -94,22 +96,22 @@ fn accumulate<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Bl
 
 /// [`accumulate`] for one vector of pixels.
 #[inline(always)]
-fn vector<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Block, place: Place) {
-    limits::limits::<S, G>(s, tile, block, place);
+fn vector<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, group: &Group, place: Place) {
+    limits::limits::<S, G>(s, tile, group, place);
     if tile.constants.derivative {
-        derivative::own_patch::<S, G>(s, tile, place);
-        if place.near {
-            derivative::other_patch::<S, G>(s, tile, block, place);
+        derivative::own_patch::<S, G>(s, tile, group, place);
+        if group.near {
+            derivative::other_patch::<S, G>(s, tile, group, place);
         }
     }
     for k in 0..tile.passes.len() {
         let pass = tile.passes[k];
         match pass.patch {
-            0 => weigh::weigh::<S, G, 0>(s, tile, block, place, k, pass),
-            1 => weigh::weigh::<S, G, 1>(s, tile, block, place, k, pass),
-            2 => weigh::weigh::<S, G, 2>(s, tile, block, place, k, pass),
-            3 => weigh::weigh::<S, G, 3>(s, tile, block, place, k, pass),
-            _ => weigh::weigh::<S, G, NO_PATCH>(s, tile, block, place, k, pass),
+            0 => weigh::weigh::<S, G, 0>(s, tile, group, place, k, pass),
+            1 => weigh::weigh::<S, G, 1>(s, tile, group, place, k, pass),
+            2 => weigh::weigh::<S, G, 2>(s, tile, group, place, k, pass),
+            3 => weigh::weigh::<S, G, 3>(s, tile, group, place, k, pass),
+            _ => weigh::weigh::<S, G, NO_PATCH>(s, tile, group, place, k, pass),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! What the inner loops see of a tile.
 
 use crate::engine::{Block, MAX_LANES, Plane};
-use crate::nlm::layout::{KINDS, Layout, MAX_BLOCK};
+use crate::nlm::layout::{KINDS, Layout, MAX_GROUP};
 use crate::nlm::params::MAX_PATCH_RADIUS;
 
 /// `PATCH` of a pass without a patch.
@@ -61,38 +61,50 @@ pub(in crate::nlm) struct TileView<'a> {
     pub constants: Constants,
 }
 
-impl TileView<'_> {
-    /// Place of offset (0, 0) in the frame to filter among the block's, or [`usize::MAX`].
-    #[inline(always)]
-    pub(super) fn center(&self, block: &Block) -> usize {
-        if self.same_frame && block.dy == 0 && (0..block.count as isize).contains(&-block.dx) {
-            -block.dx as usize
-        } else {
-            usize::MAX
-        }
-    }
+/// A few offsets of a block whose values are loaded together: dx, dx + 1, … at dy.
+#[derive(Clone, Copy)]
+pub(super) struct Group {
+    pub dy: isize,
+    pub dx: isize,
+    /// How many of them count; those after have weight 0.
+    pub count: usize,
+    /// Place of offset (0, 0) in the frame to filter among them, or [`usize::MAX`].
+    pub center: usize,
+    /// Whether one of them is so small that p is a tap of its neighbour's patch, and that counts.
+    pub near: bool,
+}
 
-    /// Whether some of `group` offsets is so small that p is a tap of its neighbour's patch, and that counts.
+impl Group {
+    /// `size` offsets from the block's `first` on.
     #[inline(always)]
-    pub(super) fn near(&self, block: &Block, group: usize) -> bool {
-        let patch = self.layout.patches.first().map_or(-1, |&f| f as isize);
-        let last = block.dx + group as isize - 1;
-        let counts = self.constants.derivative && !self.constants.joint && self.same_frame;
-        counts && block.dy.abs() <= patch && block.dx <= patch && last >= -patch
+    pub fn new(tile: &TileView<'_>, block: &Block, first: usize, size: usize) -> Self {
+        let (dy, dx) = (block.dy, block.dx + first as isize);
+        let count = (block.count - first).min(size);
+        let own = tile.same_frame && dy == 0 && (0..count as isize).contains(&-dx);
+        let patch = tile.layout.patches.first().map_or(-1, |&f| f as isize);
+        let counts = tile.constants.derivative && !tile.constants.joint && tile.same_frame;
+        let last = dx + size as isize - 1;
+        Self {
+            dy,
+            dx,
+            count,
+            center: if own { -dx as usize } else { usize::MAX },
+            near: counts && dy.abs() <= patch && dx <= patch && last >= -patch,
+        }
     }
 }
 
-/// Vectors that the steps for one vector of pixels hand on, one for each offset of a block: exponents for both τ, then
+/// Vectors that the steps for one vector of pixels hand on, one for each offset of a group: exponents for both τ, then
 /// what moving each guide channel at p changes through p's own patch, then through q's. In memory and not in variables,
 /// because the compiler copies such large variables at every branch.
-pub(in crate::nlm) const LOCAL: usize = (KINDS + 3 + 3) * MAX_BLOCK * MAX_LANES;
+pub(in crate::nlm) const LOCAL: usize = (KINDS + 3 + 3) * MAX_GROUP * MAX_LANES;
 pub(super) const OWN: usize = KINDS;
 pub(super) const EXCHANGED: usize = KINDS + 3;
 
 /// Index of a vector of [`LOCAL`].
 #[inline(always)]
 pub(super) fn local(kind: usize, offset: usize) -> usize {
-    (kind * MAX_BLOCK + offset) * MAX_LANES
+    (kind * MAX_GROUP + offset) * MAX_LANES
 }
 
 /// Numbers that are the same for all tiles.
@@ -127,13 +139,9 @@ pub(in crate::nlm) struct Constants {
     pub pair_scale: f32,
 }
 
-/// Places of one vector of pixels in the planes, and of the block in the window.
+/// Places of one vector of pixels in the planes.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
-    /// See [`TileView::center`].
-    pub center: usize,
-    /// See [`TileView::near`].
-    pub near: bool,
     /// In pixel and accumulator planes.
     pub pixel: usize,
     /// Of the first neighbour, in area planes.
@@ -142,6 +150,6 @@ pub(super) struct Place {
     pub here: usize,
     /// Of the first neighbour, in guide planes.
     pub there: usize,
-    /// Of the patch around the pixel, in column planes: its leftmost tap for the largest radius.
+    /// Of the patch around the pixel, in column planes, for the first neighbour: its leftmost tap for the largest radius.
     pub columns: usize,
 }

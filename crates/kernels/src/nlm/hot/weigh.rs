@@ -1,15 +1,15 @@
 //! Weights and what they add to the sums (rousselle2013rdfc, Eq. 1, 2 and 4).
 
-use super::tile::{EXCHANGED, HotPass, NO_PATCH, OWN, Place, TileView, local};
-use crate::engine::{Block, Equal, Simd, across};
-use crate::nlm::layout::{LARGEST, MAX_BLOCK, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
+use super::tile::{EXCHANGED, Group, HotPass, NO_PATCH, OWN, Place, TileView, local};
+use crate::engine::{Equal, Simd, across};
+use crate::nlm::layout::{LARGEST, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
 
-/// One pass's weights of the block (Eq. 4: the lower exponent of Eq. 2 and Eq. 3), and what they add to its sums (Eq. 1).
+/// One pass's weights of the group (Eq. 4: the lower exponent of Eq. 2 and Eq. 3), and what they add to its sums (Eq. 1).
 #[inline(always)]
 pub(super) fn weigh<S: Simd, const G: usize, const PATCH: usize>(
     s: S,
     tile: &mut TileView<'_>,
-    block: &Block,
+    group: &Group,
     place: Place,
     index: usize,
     pass: HotPass,
@@ -27,7 +27,7 @@ pub(super) fn weigh<S: Simd, const G: usize, const PATCH: usize>(
             w[o] = s.exp2_or_zero(limit);
         } else {
             let from = place.columns
-                + (pass.columns * MAX_BLOCK + o) * layout.columns.plane
+                + (pass.columns * layout.block + o) * layout.columns.plane
                 + (layout.patches[0] - PATCH);
             guided[o] = s.mul(across::<S, PATCH>(s, &Equal, tile.columns, from), scale);
             w[o] = s.exp2_or_zero(s.min(guided[o], limit));
@@ -69,8 +69,8 @@ pub(super) fn weigh<S: Simd, const G: usize, const PATCH: usize>(
         for o in 0..G {
             let d = s.sub(s.load_beside(tile.there, value + place.there, o), p);
             let mut bend = s.load(tile.local, local(OWN + c, o));
-            if place.near {
-                let distance = block.dy.abs().max((block.dx + o as isize).abs());
+            if group.near {
+                let distance = group.dy.abs().max((group.dx + o as isize).abs());
                 if distance <= PATCH as isize {
                     bend = s.add(bend, s.load(tile.local, local(EXCHANGED + c, o)));
                 }
