@@ -3,7 +3,7 @@
 
 use super::{Grid, Tile, mirror};
 
-/// Copies for one tile of an image of `width` × `height` pixels.
+/// Copies for one tile of an image of `width` × `height` pixels. What they write to starts with the plane in question.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Copies {
     pub width: usize,
@@ -17,8 +17,8 @@ impl Copies {
         let (width, height) = (self.width, self.height);
         let start = self.tile.x as isize - grid.left as isize;
         let inside = start >= 0 && start as usize + grid.columns <= width;
-        for (j, row) in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch).enumerate() {
-            let row = &mut row[..grid.columns];
+        for j in 0..grid.rows {
+            let row = &mut to[j * grid.pitch..][..grid.columns];
             let y = mirror(self.tile.y as isize + j as isize - grid.above as isize, height);
             let from = &from[y * width..][..width];
             if inside {
@@ -35,8 +35,8 @@ impl Copies {
 
     /// The part of a plane that a grid shows, `outside` beyond the image.
     pub fn marked(&self, grid: &Grid, from: &[f32], to: &mut [f32], outside: f32) {
-        for (j, row) in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch).enumerate() {
-            let row = &mut row[..grid.columns];
+        for j in 0..grid.rows {
+            let row = &mut to[j * grid.pitch..][..grid.columns];
             let y = (self.tile.y + j).checked_sub(grid.above).filter(|&y| y < self.height);
             let Some(y) = y else {
                 row.fill(outside);
@@ -54,7 +54,8 @@ impl Copies {
     /// 0 in columns inside the image, `outside` beyond them, in every row.
     pub fn mark_columns(&self, grid: &Grid, to: &mut [f32], outside: f32) {
         let columns = self.inside(grid);
-        for row in to[..grid.rows * grid.pitch].chunks_exact_mut(grid.pitch) {
+        for j in 0..grid.rows {
+            let row = &mut to[j * grid.pitch..][..grid.columns];
             row.fill(outside);
             row[columns.clone()].fill(0.0);
         }

@@ -40,6 +40,8 @@ pub(super) struct Layout {
     pub area: Grid,
     /// What belongs to the tile's own pixels.
     pub pixel: Grid,
+    /// Accumulators of the tile's own pixels.
+    pub sums: Grid,
     /// Vertical patch sums: the tile and f columns on both sides; for each radius one plane per offset of a block.
     pub columns: Grid,
 }
@@ -50,6 +52,7 @@ impl Layout {
         (tile_width, tile_height): (usize, usize),
         reach: usize,
         patches: Vec<usize>,
+        passes: usize,
         inputs: &NlmInputs<'_>,
     ) -> Self {
         let group = group(2 * reach + 1);
@@ -60,24 +63,32 @@ impl Layout {
         let with_patch = (tile_width + 2 * patch).next_multiple_of(MAX_LANES);
         // The last block of a row may look at offsets beyond the window; their weights are zero.
         let right = reach + MAX_GROUP;
+        let block = (GROUPS * group).min((2 * reach + 1).next_multiple_of(group));
+        let channels = if patches.is_empty() { 0 } else { inputs.frame.guide.len() };
+        let targets = inputs.frame.targets.len();
         let features: Vec<usize> = inputs.frame.features.iter().map(Vec::len).collect();
+        let feature_channels = features.iter().sum::<usize>();
         Self {
             reach,
             group,
-            block: (GROUPS * group).min((2 * reach + 1).next_multiple_of(group)),
-            channels: if patches.is_empty() { 0 } else { inputs.frame.guide.len() },
-            feature_channels: features.iter().sum(),
+            block,
+            channels,
+            feature_channels,
             features,
-            targets: inputs.frame.targets.len(),
-            guide: Grid::new(
-                left + patch,
-                reach + patch,
-                left + with_patch + right,
-                tile_height + 2 * (reach + patch),
+            targets,
+            guide: Grid::interleaved(
+                2 * channels,
+                (left + patch, reach + patch),
+                (left + with_patch + right, tile_height + 2 * (reach + patch)),
             ),
-            area: Grid::new(left, reach, left + tile_width + right, tile_height + 2 * reach),
-            pixel: Grid::new(0, 0, tile_width, tile_height),
-            columns: Grid::new(patch, 0, with_patch, tile_height),
+            area: Grid::interleaved(
+                3 * feature_channels + targets + 1,
+                (left, reach),
+                (left + tile_width + right, tile_height + 2 * reach),
+            ),
+            pixel: Grid::interleaved(4 * feature_channels + 3, (0, 0), (tile_width, tile_height)),
+            sums: Grid::interleaved(passes * (targets + SUMS), (0, 0), (tile_width, tile_height)),
+            columns: Grid::interleaved(patches.len() * block, (patch, 0), (with_patch, tile_height)),
             patches,
         }
     }
@@ -97,16 +108,6 @@ impl Layout {
         self.area_target(self.targets)
     }
 
-    /// Values of all area planes.
-    pub fn area_size(&self) -> usize {
-        self.area_penalty() + self.area.plane
-    }
-
-    /// Values of one frame's guide planes.
-    pub fn guide_size(&self) -> usize {
-        2 * self.channels * self.guide.plane
-    }
-
     /// Pixel plane of a feature channel: 0 its values, 1 their negative variances, 2 and 3 what differences are scaled
     /// by for each τ.
     pub fn pixel_feature(&self, kind: usize, channel: usize) -> usize {
@@ -118,19 +119,9 @@ impl Layout {
         (4 * self.feature_channels + channel) * self.pixel.plane
     }
 
-    /// Values of all pixel planes.
-    pub fn pixel_size(&self) -> usize {
-        self.pixel_step(3)
-    }
-
-    /// Values of all column planes.
-    pub fn columns_size(&self) -> usize {
-        self.patches.len() * self.block * self.columns.plane
-    }
-
     /// Accumulator planes of pass `pass`: the targets' weighted sums first.
     pub fn sums(&self, pass: usize) -> usize {
-        pass * (self.targets + SUMS) * self.pixel.plane
+        pass * (self.targets + SUMS) * self.sums.plane
     }
 }
 

@@ -73,7 +73,7 @@ fn sweep(
     level: InstructionSet,
     tile_size: (usize, usize),
 ) -> Vec<Filtered> {
-    let layout = Layout::new(tile_size, params.window_radius, patches(passes), inputs);
+    let layout = Layout::new(tile_size, params.window_radius, patches(passes), passes.len(), inputs);
     let floors = floors(passes);
     let hot: Vec<HotPass> = passes
         .iter()
@@ -151,15 +151,15 @@ impl Job<'_> {
     /// Values of a worker's parts: guide here, guide there, pixels, sums, area, local, columns.
     fn sizes(&self) -> [usize; 7] {
         let layout = &self.layout;
-        let there = if self.inputs.neighbors.is_empty() { 0 } else { layout.guide_size() };
+        let there = if self.inputs.neighbors.is_empty() { 0 } else { layout.guide.interleaved_size() };
         [
-            layout.guide_size(),
+            layout.guide.interleaved_size(),
             there,
-            layout.pixel_size(),
-            layout.sums(self.passes.len()),
-            layout.area_size(),
+            layout.pixel.interleaved_size(),
+            layout.sums.interleaved_size(),
+            layout.area.interleaved_size(),
             LOCAL,
-            layout.columns_size(),
+            layout.columns.interleaved_size(),
         ]
     }
 
@@ -261,7 +261,7 @@ impl Job<'_> {
     /// Divides the sums and writes the tile's result.
     fn finish(&self, sums: &[f32], pixel: &[f32], tile: Tile, out: Vec<TileRows<'_>>) {
         let layout = &self.layout;
-        let (grid, targets) = (&layout.pixel, layout.targets);
+        let (grid, targets) = (&layout.sums, layout.targets);
         let area = |k: usize, j: usize| {
             // The pixels themselves, for a centre weight that is known only now.
             let first = (tile.y + j) * self.params.width + tile.x;
@@ -307,7 +307,7 @@ impl Job<'_> {
                     let (weight, largest) = (extra(WEIGHT, j), extra(LARGEST, j));
                     let (step, moved_step) = (extra(STEP + c, j), extra(MOVED_STEP + c, j));
                     let (moved, moved_largest) = (extra(MOVED_WEIGHT + c, j), extra(MOVED_LARGEST + c, j));
-                    let delta = &pixel[layout.pixel_step(c) + j * grid.pitch..][..tile.width];
+                    let delta = &pixel[layout.pixel_step(c) + j * layout.pixel.pitch..][..tile.width];
                     for (i, value) in to.iter_mut().enumerate() {
                         let (own, missing) = center(largest[i]);
                         let total = weight[i] + missing;

@@ -18,6 +18,7 @@ pub(super) use tile::{Constants, HotPass, LOCAL, TileView};
 use self::distances::ColourDistance;
 use self::tile::{Group, NO_PATCH, Place};
 use crate::engine::{Block, Columns, Equal, Kernel, Simd};
+use crate::nlm::layout::Layout;
 
 /// Everything for one block of offsets.
 pub(super) struct Step<'t, 'a> {
@@ -69,8 +70,7 @@ fn columns<S: Simd, const BIG: usize, const SMALL: usize>(s: S, tile: &mut TileV
 /// stays in the first cache while the block's groups of `G` offsets pass over it.
 #[inline(always)]
 fn accumulate<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Block) {
-    let (area, guide, pixel, columns) =
-        (tile.layout.area, tile.layout.guide, tile.layout.pixel, tile.layout.columns);
+    let Layout { area, guide, pixel, sums, columns, .. } = *tile.layout;
     for y in block.rows.clone() {
         let mut x = 0;
         while x < tile.width {
@@ -81,6 +81,7 @@ fn accumulate<S: Simd, const G: usize>(s: S, tile: &mut TileView<'_>, block: &Bl
                 let here = guide.origin() + y * guide.pitch + x;
                 let place = Place {
                     pixel: y * pixel.pitch + x,
+                    sums: y * sums.pitch + x,
                     area: (area.origin() + y * area.pitch + x).wrapping_add_signed(shift(area.pitch)),
                     here,
                     there: here.wrapping_add_signed(shift(guide.pitch)),

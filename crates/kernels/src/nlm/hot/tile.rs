@@ -142,8 +142,10 @@ pub(in crate::nlm) struct Constants {
 /// Places of one vector of pixels in the planes.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
-    /// In pixel and accumulator planes.
+    /// In pixel planes.
     pub pixel: usize,
+    /// In accumulator planes.
+    pub sums: usize,
     /// Of the first neighbour, in area planes.
     pub area: usize,
     /// In guide planes.

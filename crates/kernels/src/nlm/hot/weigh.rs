@@ -15,8 +15,8 @@ pub(super) fn weigh<S: Simd, const G: usize, const PATCH: usize>(
     pass: HotPass,
 ) {
     let layout = tile.layout;
-    let (plane, targets) = (layout.pixel.plane, layout.targets);
-    let sums = layout.sums(index) + place.pixel;
+    let (plane, targets) = (layout.sums.plane, layout.targets);
+    let sums = layout.sums(index) + place.sums;
     let scale = s.splat(pass.scale);
     // Eq. 4.
     let mut guided = [s.zero(); G];
