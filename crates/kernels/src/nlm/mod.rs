@@ -82,5 +82,12 @@ pub fn filter_at(
     if !level.is_available() {
         return Err(NlmError::LevelUnavailable { level });
     }
-    Ok(tiled::filter(params, passes, inputs, level, TILE))
+    Ok(tiled::filter(params, passes, inputs, level, tile(inputs)))
+}
+
+/// Size of tiles: taller ones compute fewer distances of patches that lie across their borders, as long as the planes of what
+/// they read at neighbours stay in the second cache.
+fn tile(inputs: &NlmInputs<'_>) -> (usize, usize) {
+    let (width, height) = TILE;
+    (width, if inputs.frame.features.is_empty() { 2 * height } else { height })
 }

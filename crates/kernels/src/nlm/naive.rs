@@ -54,7 +54,7 @@ impl<R: Real> Sweep<'_, R> {
             let (a, b) = ((p.0 + nx, p.1 + ny), (q.0 + nx, q.1 + ny));
             let exchanged = same_frame && rule == Rule::Exact && b == p;
             for c in 0..channels {
-                let by = if c < 3 { step[c] } else { R::from(0.0) };
+                let by = step.get(c).copied().unwrap_or(R::from(0.0));
                 let moved =
                     (if a == p { by } else { R::from(0.0) }, if exchanged { by } else { R::from(0.0) });
                 // At q = p both are the same pixel, in either rule.
