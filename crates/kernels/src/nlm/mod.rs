@@ -26,9 +26,11 @@
 mod error;
 mod hot;
 mod layout;
+mod maps;
 pub mod naive;
 mod params;
-pub(crate) mod tiled;
+mod rules;
+mod tiled;
 
 pub use error::NlmError;
 pub use params::{
@@ -37,6 +39,8 @@ pub use params::{
     MAX_VALUE, MAX_VARIANCE, MAX_WINDOW_RADIUS, MIN_EPSILON, MIN_FLOOR, MIN_K, NlmInputs, NlmParams, Pass,
     Perturbation, Planes, Rule,
 };
+
+pub use rules::{Border, PAIR_LIMIT, Pairs, Smoothing, Taps, WeightRules};
 
 use crate::engine::{InstructionSet, TILE};
 
@@ -82,5 +86,20 @@ pub fn filter_at(
     if !level.is_available() {
         return Err(NlmError::LevelUnavailable { level });
     }
-    Ok(tiled::filter(params, passes, inputs, level, TILE))
+    Ok(in_tiles(params, passes, inputs, level, None))
+}
+
+/// Runs checked passes in the form that their rules ask for, in tiles of its own size or another.
+pub(crate) fn in_tiles(
+    params: &NlmParams,
+    passes: &[Pass],
+    inputs: &NlmInputs<'_>,
+    level: InstructionSet,
+    tile: Option<(usize, usize)>,
+) -> Vec<Filtered> {
+    if params.rules == WeightRules::default() {
+        tiled::filter(params, passes, inputs, level, tile.unwrap_or(TILE))
+    } else {
+        maps::filter(params, passes, inputs, level, tile.unwrap_or(maps::TILE))
+    }
 }
