@@ -9,7 +9,8 @@ pub(crate) const MAX_LANES: usize = 16;
 pub(crate) const ROUND: f32 = 12_582_912.0;
 
 /// Minimax polynomial of 2^f on [-1/2, 1/2], constant term 1, from the highest power down.
-pub(crate) const EXP2: [f32; 6] = [0.001_327_647_2, 0.009_675_542, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.0];
+pub(crate) const EXP2: [f32; 6] =
+    [0.001_327_647_2, 0.009_675_542, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.0];
 
 /// Least exponent whose power of 2 is a normal number.
 pub(crate) const LEAST_EXPONENT: f32 = -126.0;

@@ -19,3 +19,11 @@ pub(super) fn exponential(distance: f32) -> f32 {
     let value = f32::from_bits(y.to_bits().wrapping_add(n.to_bits() << 23));
     if x >= LEAST_EXPONENT { value } else { 0.0 }
 }
+
+/// Replaces distances by their weights.
+#[inline(always)]
+pub(super) fn exponentials(distances: &mut [f32]) {
+    for distance in distances {
+        *distance = exponential(*distance);
+    }
+}

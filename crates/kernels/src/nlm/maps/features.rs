@@ -51,9 +51,9 @@ impl FeatureSquare {
     pub fn add_one(self, to: &mut [f32], p: FeatureRow<'_>, q: FeatureRow<'_>, floor: f32) {
         let n = to.len();
         let (p, q) = (p.first(n), q.first(n));
-        for i in 0..n {
+        for (i, to) in to.iter_mut().enumerate() {
             let (p, q) = (p.at(i, floor), q.at(i, floor));
-            to[i] += self.of(p.0 - q.0, (p.1, p.2), least(p.1, q.1), q.2);
+            *to += self.of(p.0 - q.0, (p.1, p.2), least(p.1, q.1), q.2);
         }
     }
 
@@ -62,12 +62,21 @@ impl FeatureSquare {
     pub fn add_mean(self, to: &mut [f32], p: FeatureRow<'_>, q: [FeatureRow<'_>; 2], floor: f32) {
         let n = to.len();
         let (p, q1, q2) = (p.first(n), q[0].first(n), q[1].first(n));
-        for i in 0..n {
+        for (i, to) in to.iter_mut().enumerate() {
             let (p, q1, q2) = (p.at(i, floor), q1.at(i, floor), q2.at(i, floor));
             let d = p.0 - 0.5 * (q1.0 + q2.0);
             let least = 0.25 * (least(p.1, q1.1) + least(p.1, q2.1));
-            to[i] += self.of(d, (p.1, p.2), least, 0.25 * (q1.2 + q2.2));
+            *to += self.of(d, (p.1, p.2), least, 0.25 * (q1.2 + q2.2));
         }
+    }
+}
+
+/// Raises a row of distances to those by a feature of `channels`, with its sums of Φ².
+#[inline(always)]
+pub(super) fn farther(distances: &mut [f32], sums: &[f32], channels: f32) {
+    for (distance, sum) in distances.iter_mut().zip(sums) {
+        let own = sum / channels;
+        *distance = if own > *distance { own } else { *distance };
     }
 }
 

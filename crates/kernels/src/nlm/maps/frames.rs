@@ -23,7 +23,12 @@ impl Around {
         let grid = &layout.guide;
         for (c, channel) in frame.guide.iter().enumerate().take(layout.channels) {
             copies.mirrored(grid, channel.value, &mut self.guide[c * grid.plane..], 1.0);
-            copies.mirrored(grid, channel.variance, &mut self.guide[(layout.channels + c) * grid.plane..], 1.0);
+            copies.mirrored(
+                grid,
+                channel.variance,
+                &mut self.guide[(layout.channels + c) * grid.plane..],
+                1.0,
+            );
         }
         let grid = &layout.area;
         for (c, channel) in frame.features.iter().flatten().enumerate() {
@@ -46,7 +51,13 @@ impl Around {
 
     /// A row of a feature channel's values (kind 0), variances (1) or spreads (2).
     #[inline(always)]
-    pub fn feature(&self, layout: &Layout, (kind, channel): (usize, usize), at: (isize, isize), length: usize) -> &[f32] {
+    pub fn feature(
+        &self,
+        layout: &Layout,
+        (kind, channel): (usize, usize),
+        at: (isize, isize),
+        length: usize,
+    ) -> &[f32] {
         let plane = kind * layout.feature_channels + channel;
         row(&self.area[plane * layout.area.plane..], &layout.area, at, length)
     }

@@ -122,9 +122,7 @@ impl Place {
     /// tile's first pixel; at least 1 each.
     #[inline(always)]
     pub fn count(&self, (x, y): (isize, isize), radius: usize) -> (usize, usize) {
-        let line = |at: isize, size: usize| {
-            inside(at - radius as isize, 2 * radius + 1, size).len().max(1)
-        };
+        let line = |at: isize, size: usize| inside(at - radius as isize, 2 * radius + 1, size).len().max(1);
         (line(self.tile.x as isize + x, self.width), line(self.tile.y as isize + y, self.height))
     }
 

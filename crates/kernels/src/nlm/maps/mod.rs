@@ -79,8 +79,10 @@ pub(super) fn filter(
         features: inputs.frame.features.iter().map(Vec::len).collect(),
         rule: inputs.perturbation.map_or(Rule::Exact, |p| p.rule),
     };
-    let mut out: Vec<Filtered> =
-        passes.iter().map(|pass| Filtered::empty(params.width * params.height, job.layout.targets, pass)).collect();
+    let mut out: Vec<Filtered> = passes
+        .iter()
+        .map(|pass| Filtered::empty(params.width * params.height, job.layout.targets, pass))
+        .collect();
     let planes = out.iter_mut().flat_map(Filtered::planes_mut);
     for_each_tile(
         params.width,

@@ -62,7 +62,11 @@ impl Bends {
                     mean.fill(0.0);
                 }
                 for i in 0..n {
-                    let (u, a, b) = ((p.value[i], p.variance[i]), (q1.value[i], q1.variance[i]), (q2.value[i], q2.variance[i]));
+                    let (u, a, b) = (
+                        (p.value[i], p.variance[i]),
+                        (q1.value[i], q1.variance[i]),
+                        (q2.value[i], q2.variance[i]),
+                    );
                     first[i] += square.bend_one(u, a, step[i]);
                     second[i] += square.bend_one(u, b, step[i]);
                     mean[i] += square.bend_mean(u, [a, b], step[i]);
@@ -79,7 +83,8 @@ impl Bends {
         for y in 0..place.tile.height as isize {
             for c in 0..CHANNELS {
                 let p = here.guide(layout, c, (0, y), n);
-                let beside = |times: isize| here.guide(layout, c, (times * offset.dx, y + times * offset.dy), n);
+                let beside =
+                    |times: isize| here.guide(layout, c, (times * offset.dx, y + times * offset.dy), n);
                 let [first, second, mean] = &mut self.exchanged[c];
                 let step = row(&self.steps[c], grid, (0, y), n);
                 row_mut(mean, grid, (0, y), n).fill(0.0);
@@ -91,7 +96,9 @@ impl Bends {
                     let mean = row_mut(mean, grid, (0, y), n);
                     let taps = match rules.taps {
                         Taps::Mirrored => 0..n,
-                        Taps::Clipped if place.has_row(y + away * offset.dy) => place.columns(away * offset.dx, n),
+                        Taps::Clipped if place.has_row(y + away * offset.dy) => {
+                            place.columns(away * offset.dx, n)
+                        }
                         Taps::Clipped => 0..0,
                     };
                     keep_only(to, taps.clone());
@@ -123,7 +130,9 @@ impl Bends {
             let before = row(&maps.distances[kind], &layout.map, (0, y), n);
             let bends = row(&self.own[c][kind], &layout.pixel, (0, y), n);
             let after = &mut self.distances[kind][..n];
-            for (((after, before), bend), columns) in after.iter_mut().zip(before).zip(bends).zip(taps.own_columns()) {
+            for (((after, before), bend), columns) in
+                after.iter_mut().zip(before).zip(bends).zip(taps.own_columns())
+            {
                 *after = before + bend / (terms * columns);
             }
             if exchanged {

@@ -43,7 +43,9 @@ pub(super) fn share_near(
     shares: &mut [f32],
 ) {
     let weights = first.iter_mut().zip(second).zip(mean);
-    for ((((first, second), mean), (d1, d2)), kept) in weights.zip(distances.0.iter().zip(distances.1)).zip(shares) {
+    for ((((first, second), mean), (d1, d2)), kept) in
+        weights.zip(distances.0.iter().zip(distances.1)).zip(shares)
+    {
         let a = share(*first, *second, *mean);
         let a = if near(*d1, *d2) { a } else { 0.0 };
         *kept = a;

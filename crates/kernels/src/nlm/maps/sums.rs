@@ -57,7 +57,8 @@ impl Weights {
     #[inline(always)]
     pub fn add(&mut self, grid: &Grid, y: isize, [first, second]: [&[f32]; 2]) {
         let n = first.len();
-        let (sum, most) = (row_mut(&mut self.sum, grid, (0, y), n), row_mut(&mut self.largest, grid, (0, y), n));
+        let (sum, most) =
+            (row_mut(&mut self.sum, grid, (0, y), n), row_mut(&mut self.largest, grid, (0, y), n));
         for ((sum, most), (a, b)) in sum.iter_mut().zip(most).zip(first.iter().zip(second)) {
             *sum = *sum + a + b;
             let larger = if a > b { *a } else { *b };

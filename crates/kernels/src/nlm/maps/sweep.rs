@@ -1,7 +1,8 @@
 //! All offsets of a window for one tile and frame.
 
 use super::counts::Counts;
-use super::features::{FeatureRow, FeatureSquare, limit_alone, limit_pair};
+use super::exponential::exponentials;
+use super::features::{FeatureRow, FeatureSquare, farther, limit_alone, limit_pair};
 use super::frames::Around;
 use super::guided::{Guides, Maps, Three};
 use super::layout::{Layout, Place, row, row_mut};
@@ -130,53 +131,48 @@ impl Sweep<'_> {
     /// Weights of features with one τ.
     #[inline(always)]
     fn limits(&mut self, guides: &Guides<'_>, floor: usize) {
-        let (layout, n, offset) = (self.layout, self.place.tile.width, guides.offset);
-        let [first, second] = &mut self.work.limits[floor];
-        let floor = self.floors[floor];
+        let (grid, n, shares) = (&self.layout.pixel, self.place.tile.width, guides.shares());
+        let Work { limits, features: sums, .. } = &mut *self.work;
+        let [first, second] = &mut limits[floor];
         for y in 0..self.place.tile.height as isize {
-            let first = row_mut(first, &layout.pixel, (0, y), n);
-            let second = row_mut(second, &layout.pixel, (0, y), n);
-            first.fill(1.0);
-            second.fill(1.0);
-            let both = if guides.shares() {
-                both_seen(&self.place, self.rules.border, (0, y), offset, n)
-            } else {
-                0..0
-            };
+            let (first, second) = (row_mut(first, grid, (0, y), n), row_mut(second, grid, (0, y), n));
+            // Where nothing is shared the largest distance is enough, and one weight is made of it.
+            let none = if shares { 1.0 } else { 0.0 };
+            first.fill(none);
+            second.fill(none);
+            let both = both_seen(&self.place, self.rules.border, (0, y), guides.offset, n);
             let mut channel = 0;
             for &channels in self.features {
-                let [sums1, sums2, means] = &mut self.work.features;
-                let (sums1, sums2, means) = (&mut sums1[..n], &mut sums2[..n], &mut means[..n]);
-                sums1.fill(0.0);
-                sums2.fill(0.0);
-                means.fill(0.0);
+                sums.iter_mut().for_each(|sums| sums[..n].fill(0.0));
                 for c in channel..channel + channels {
-                    let p = feature_row(self.here, layout, c, (0, y), n);
-                    let [q1, q2] = [0, 1].map(|side| {
-                        let (dx, dy) = offset.side(side);
-                        feature_row(guides.there, layout, c, (dx, y + dy), n)
+                    let p = feature_row(self.here, self.layout, c, (0, y), n);
+                    let q = [0, 1].map(|side| {
+                        let (dx, dy) = guides.offset.side(side);
+                        feature_row(guides.there, self.layout, c, (dx, y + dy), n)
                     });
-                    self.feature.add_one(sums1, p, q1, floor);
-                    self.feature.add_one(sums2, p, q2, floor);
-                    if guides.shares() {
-                        self.feature.add_mean(means, p, [q1, q2], floor);
+                    self.feature.add_one(&mut sums[0][..n], p, q[0], self.floors[floor]);
+                    self.feature.add_one(&mut sums[1][..n], p, q[1], self.floors[floor]);
+                    if shares {
+                        self.feature.add_mean(&mut sums[2][..n], p, q, self.floors[floor]);
                     }
                 }
                 channel += channels;
-                let channels = channels as f32;
-                for alone in [0..both.start, both.end..n] {
-                    limit_alone(
-                        [&mut first[alone.clone()], &mut second[alone.clone()]],
-                        [&sums1[alone.clone()], &sums2[alone]],
-                        channels,
-                    );
+                let (channels, sums) = (channels as f32, sums.each_ref().map(|sums| &sums[..n]));
+                if !shares {
+                    farther(first, sums[0], channels);
+                    farther(second, sums[1], channels);
+                    continue;
                 }
-                limit_pair(
-                    [&mut first[both.clone()], &mut second[both.clone()]],
-                    [&sums1[both.clone()], &sums2[both.clone()], &means[both.clone()]],
-                    channels,
-                    self.rules.pairs,
-                );
+                for alone in [0..both.start, both.end..n] {
+                    let limits = [&mut first[alone.clone()], &mut second[alone.clone()]];
+                    limit_alone(limits, [&sums[0][alone.clone()], &sums[1][alone]], channels);
+                }
+                let limits = [&mut first[both.clone()], &mut second[both.clone()]];
+                limit_pair(limits, sums.map(|sums| &sums[both.clone()]), channels, self.rules.pairs);
+            }
+            if !shares {
+                exponentials(first);
+                exponentials(second);
             }
         }
     }
@@ -194,7 +190,11 @@ impl Sweep<'_> {
         for y in 0..self.place.tile.height as isize {
             let seen = [0, 1].map(|side| {
                 let own = side == 1 && !guides.offset.has_opposite();
-                if own { 0..0 } else { seen(&self.place, self.rules.border, (0, y), guides.offset.side(side), n) }
+                if own {
+                    0..0
+                } else {
+                    seen(&self.place, self.rules.border, (0, y), guides.offset.side(side), n)
+                }
             });
             let limits = [0, 1].map(|side| row(&limits[side], &layout.pixel, (0, y), n));
             for side in 0..2 {

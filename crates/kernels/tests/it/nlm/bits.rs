@@ -15,7 +15,8 @@ fn cases() -> Vec<Case> {
     };
     let mut program = authors.clone();
     program.params.rules = rules;
-    let mut printed = Case::random(67, 45, 3, &candidates(true), &[1]).with_step(Rule::Exact).with_neighbors(1);
+    let mut printed =
+        Case::random(67, 45, 3, &candidates(true), &[1]).with_step(Rule::Exact).with_neighbors(1);
     printed.params.rules = WeightRules { pairs: Pairs::Raw, ..WeightRules::default() };
     let mut smooth = Case::random(67, 45, 4, &candidates(false), &[2]);
     smooth.params.rules = WeightRules { smoothing: Smoothing::BelowPatch, ..rules };

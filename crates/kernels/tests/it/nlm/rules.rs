@@ -69,7 +69,8 @@ fn every_rule_agrees_with_every_choice() {
         ] {
             let passes = [pass(Some(2), 1e-2), pass(Some(0), 1e-4)];
             let mut case = with(ramps(Case::random(17, 7, 2, &passes, &[3])), rules);
-            case.params = NlmParams { denominator, center, cancellation, guide_denominator: guide, ..case.params };
+            case.params =
+                NlmParams { denominator, center, cancellation, guide_denominator: guide, ..case.params };
             agrees(&case);
             case.frame = Owned::random(&mut Uniforms(3), 119, 1, &[], 1);
             agrees(&case);
@@ -196,7 +197,8 @@ fn pairs_change_nothing_where_both_neighbours_equal_their_mean() {
             value.fill(0.5);
             variance.fill(0.0);
         }
-        let plain = with(case.clone(), WeightRules { border: Border::Mirrored, ..WeightRules::default() }).fast();
+        let plain =
+            with(case.clone(), WeightRules { border: Border::Mirrored, ..WeightRules::default() }).fast();
         let rules = WeightRules { pairs, border: Border::Mirrored, ..WeightRules::default() };
         assert_eq!(with(case.clone(), rules).fast(), plain);
     }
