@@ -20,6 +20,10 @@
 //! window serves several [`Pass`]es, which differ in patch and τ and share the rest. Frames beside the target widen
 //! the window in time.
 //!
+//! That is the printed filter, with the window clipped. [`WeightRules`] switches on what the authors' programs do beside it: smoothed
+//! weights, weights that opposite neighbours share, mirrored windows, patches without taps beyond the image. They run in a second
+//! form, map by map, at two to five times the cost.
+//!
 //! With a [`Perturbation`] a pass also gives the derivative of the filtered guide by the guide's own value at p, as a
 //! finite difference: what Stein's unbiased risk estimate needs (Sec. 6, below Eq. 5).
 

@@ -60,7 +60,7 @@ impl Weights {
         let (sum, most) =
             (row_mut(&mut self.sum, grid, (0, y), n), row_mut(&mut self.largest, grid, (0, y), n));
         for ((sum, most), (a, b)) in sum.iter_mut().zip(most).zip(first.iter().zip(second)) {
-            *sum = *sum + a + b;
+            *sum += a + b;
             let larger = if a > b { *a } else { *b };
             *most = if larger > *most { larger } else { *most };
         }
@@ -73,7 +73,7 @@ pub(super) fn add_values(sum: &mut [f32], weights: [&[f32]; 2], values: [&[f32];
     let first = weights[0].iter().zip(values[0]);
     let second = weights[1].iter().zip(values[1]);
     for ((sum, (w1, u1)), (w2, u2)) in sum.iter_mut().zip(first).zip(second) {
-        *sum = *sum + w1 * u1 + w2 * u2;
+        *sum += w1 * u1 + w2 * u2;
     }
 }
 
@@ -83,7 +83,7 @@ pub(super) fn add_differences(sum: &mut [f32], weights: [&[f32]; 2], values: [&[
     let first = weights[0].iter().zip(values[0]);
     let second = weights[1].iter().zip(values[1]);
     for (((sum, own), (w1, u1)), (w2, u2)) in sum.iter_mut().zip(own).zip(first).zip(second) {
-        *sum = *sum + w1 * (u1 - own) + w2 * (u2 - own);
+        *sum += w1 * (u1 - own) + w2 * (u2 - own);
     }
 }
 

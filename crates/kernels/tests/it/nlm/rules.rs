@@ -91,6 +91,27 @@ fn derivatives_follow_the_same_rules() {
 }
 
 #[test]
+fn a_pair_that_the_step_takes_beyond_the_limit_keeps_its_share_only_if_all_channels_move() {
+    // Both neighbours at a distance of 24.9 from the middle; the step of 1 % takes one to 29.
+    let mut case = Case::random(3, 1, 1, &[Pass { patch: Some(0), floor: 1.0, derivative: true }], &[]);
+    for [value, variance] in &mut case.frame.guide {
+        *value = vec![0.4375, 0.5, 0.5625];
+        variance.fill(3.2326e-4);
+    }
+    let values = [0, 1, 2].map(|c: usize| case.frame.guide[c][0].clone());
+    let step = values.map(|values| values.iter().map(|v| 0.01 * v).collect());
+    case.params.rules.pairs = Pairs::Near;
+    let of = |rule| {
+        let case = Case { step: Some((Clone::clone(&step), rule)), ..case.clone() };
+        agrees(&case);
+        case.fast()[0].derivative[0][1]
+    };
+    let (joint, exact) = (of(Rule::Joint), of(Rule::Exact));
+    // Three pixels of weight 1 before and after; one channel alone takes the one to 26 and both weights to nothing.
+    assert!((joint - 1.0 / 3.0).abs() < 1e-3 && (exact - 1.0 / 3.0).abs() > 1e-3, "{joint} {exact}");
+}
+
+#[test]
 fn neighbouring_frames_follow_the_same_rules() {
     for rules in derivative_rules() {
         let case = ramps(Case::random(12, 7, 2, &candidates(true), &[2]));
