@@ -22,7 +22,7 @@ pub fn nlm_in_tiles(
     if !level.is_available() {
         return Err(NlmError::LevelUnavailable { level });
     }
-    Ok(nlm::tiled::filter(params, passes, inputs, level, tile))
+    Ok(nlm::in_tiles(params, passes, inputs, level, Some(tile)))
 }
 
 /// [`flash_filter::filter_into`] in tiles of another size: (width, height) in pixels, the width a multiple of 16.

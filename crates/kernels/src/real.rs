@@ -19,8 +19,6 @@ pub trait Real:
 {
     /// Largest finite number.
     const MAX: Self;
-    /// Below every number.
-    const LEAST: Self;
 
     /// The nearest value of a number.
     fn round(value: f64) -> Self;
@@ -36,7 +34,6 @@ macro_rules! real {
     ($($real:ident)+) => {$(
         impl Real for $real {
             const MAX: Self = $real::MAX;
-            const LEAST: Self = $real::NEG_INFINITY;
 
             fn round(value: f64) -> Self {
                 value as $real

@@ -3,7 +3,7 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
-use noisefloor_kernels::nlm::{NlmInputs, Pass, Perturbation, Planes, filter};
+use noisefloor_kernels::nlm::{NlmInputs, NlmParams, Pass, Perturbation, Planes, filter};
 use noisefloor_toolbox::mean_of_halves;
 
 use crate::kernel;
@@ -63,7 +63,10 @@ pub(crate) fn candidates(
 ) -> Result<Vec<Candidate>, DenoiseError> {
     let frame = target.frame;
     let (width, height) = (frame.width(), frame.height());
-    let params = target.engine(settings, settings.radius, settings.color_k);
+    let params = NlmParams {
+        rules: settings.candidate_rules(),
+        ..target.engine(settings, settings.radius, settings.color_k)
+    };
     // k_c, k_f and r = R are the same for all, but for k_c = ∞ of THIRD: no patch.
     let pass = |choice: &Choice| match choice {
         // Parameters: Alg. 1, line 9; the filter: Alg. 1, line 10.

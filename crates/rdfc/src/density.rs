@@ -46,7 +46,7 @@ pub(crate) fn text(
         *value *= (f64::from(*weight) / (1.0 + f64::from(*samples))) as f32;
     }
     // An estimate that is negative after all is no reason to take samples away.
-    Ok(filter_errors(method, target, &density, (PATCH, RADIUS), settings.center)?.map(|v| v.max(0.0)))
+    Ok(filter_errors(method, target, &density, (PATCH, RADIUS), settings)?.map(|v| v.max(0.0)))
 }
 
 /// As programmed: the relative error estimate of FIRST, clamped at 0, filtered by colour and features, over the samples

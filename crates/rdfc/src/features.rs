@@ -89,8 +89,11 @@ pub(crate) fn prefilter(
     let (mean, variance) = match (settings.prefilter, &halves) {
         (Some(own), Some(halves)) => {
             let (width, height) = (mean.width(), mean.height());
-            let params =
-                NlmParams { center: settings.center, ..NlmParams::new(width, height, own.radius, own.k) };
+            let params = NlmParams {
+                center: settings.center,
+                rules: settings.rules,
+                ..NlmParams::new(width, height, own.radius, own.k)
+            };
             // Alg. 1, line 7: both halves with weights from the whole.
             let guide = kernel::channels(&mean, &variance);
             let targets = kernel::half_planes(halves);

@@ -2,7 +2,7 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{Center, NlmParams};
+use noisefloor_kernels::nlm::NlmParams;
 
 use crate::candidates::Candidate;
 use crate::kernel;
@@ -60,7 +60,7 @@ pub(crate) fn estimates(
     let (width, height) = (target.frame.width(), target.frame.height());
     let raw: Vec<Vec<f32>> = candidates.iter().map(|c| sum_of_channels(&c.sure).data().to_vec()).collect();
     let raw = kernel::image(&raw, width, height);
-    filter_errors(method, target, &raw, (settings.map_patch, ERROR_RADIUS), settings.center)
+    filter_errors(method, target, &raw, (settings.map_patch, ERROR_RADIUS), settings)
 }
 
 /// The maps of the choice, smoothed: Alg. 1, line 23 for FIRST, Alg. 1, line 24 for SECOND, Alg. 1, line 25 for THIRD, one
@@ -71,7 +71,7 @@ pub(crate) fn filtered_maps(
     binary: &Image,
     settings: &Settings,
 ) -> Result<Image, DenoiseError> {
-    let maps = by_color(method, target, binary, (settings.map_patch, MAP_RADIUS), settings.center)?;
+    let maps = by_color(method, target, binary, (settings.map_patch, MAP_RADIUS), settings)?;
     Ok(normalized(&maps))
 }
 
@@ -81,12 +81,16 @@ fn by_color(
     target: &Prepared<'_>,
     maps: &Image,
     (patch, radius): (usize, usize),
-    center: Center,
+    settings: &Settings,
 ) -> Result<Image, DenoiseError> {
     let (width, height) = (maps.width(), maps.height());
     let guide = kernel::channels(&target.frame.color.mean, &target.variance);
-    let params =
-        NlmParams { center, epsilon: target.epsilon, ..NlmParams::new(width, height, radius, MAP_K) };
+    let params = NlmParams {
+        center: settings.center,
+        epsilon: target.epsilon,
+        rules: settings.rules,
+        ..NlmParams::new(width, height, radius, MAP_K)
+    };
     let filtered = kernel::filter_guided(method, &params, patch, guide, maps.planes().collect())?;
     Ok(kernel::image(&filtered.planes, width, height))
 }
@@ -98,10 +102,10 @@ pub(crate) fn filter_errors(
     target: &Prepared<'_>,
     errors: &Image,
     sizes: (usize, usize),
-    center: Center,
+    settings: &Settings,
 ) -> Result<Image, DenoiseError> {
     let scale = unit_scale(errors);
-    let filtered = by_color(method, target, &errors.map(|v| v * scale), sizes, center)?;
+    let filtered = by_color(method, target, &errors.map(|v| v * scale), sizes, settings)?;
     // At least 2⁻¹⁰⁴, as magnitudes are at most 3·10³⁰.
     Ok(filtered.map(|v| v / scale))
 }

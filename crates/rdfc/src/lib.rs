@@ -23,7 +23,7 @@ pub use card::CITATION;
 pub use method::{Rdfc, methods};
 pub use params::{
     CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, Gradient,
-    Params, Profile, SecondPass, Ties, VarianceScaling,
+    Params, PatchTaps, Profile, SecondPass, Ties, VarianceScaling, WindowBorder,
 };
 pub use selection::{Choice, select};
 

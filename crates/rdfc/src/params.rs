@@ -6,8 +6,7 @@ choices! {
     pub enum Profile {
         /// The printed text, with its misprint in Alg. 1, line 21 mended.
         Paper = "paper",
-        /// The authors' program, as far as it is here: without its weights of symmetric pairs, its smoothing of weights and
-        /// its mirrored windows.
+        /// The authors' program.
         Authors = "authors",
         /// What wins by measurement: each choice with its figure in the crate's documentation.
         Best = "best",
@@ -68,6 +67,26 @@ choices! {
 }
 
 choices! {
+    /// What a window sees beyond the image.
+    pub enum WindowBorder {
+        /// Nothing: it is cut there.
+        Clipped = "clipped",
+        /// The mirrored pixels, as programmed: a pixel near the border may meet itself.
+        Mirrored = "mirrored",
+    }
+}
+
+choices! {
+    /// What the patch around a pixel sees beyond the image.
+    pub enum PatchTaps {
+        /// The mirrored pixels.
+        Mirrored = "mirrored",
+        /// Nothing, as programmed: the mean is over the taps that remain.
+        Clipped = "clipped",
+    }
+}
+
+choices! {
     /// What counts as 1 of depth, and of other features without a limit of their own.
     pub enum DepthRange {
         /// The largest magnitude of the image, as printed.
@@ -99,6 +118,8 @@ choices! {
         Earlier = "earlier",
         /// THIRD.
         Later = "later",
+        /// THIRD, and FIRST may have SECOND's derivative too: the program's comparisons.
+        Program = "program",
     }
 }
 
@@ -179,6 +200,15 @@ parameters! {
         second_pass_denominator: Option<ColorDenominator> = None, choice::<ColorDenominator>().or_null().section("Sec. 4");
         /// Patch radius of the filters of error estimates and selection maps.
         map_patch_radius_px: Option<usize> = None, integer(0..=MAX_PATCH_RADIUS).unit("px").or_null().section("Alg. 1");
+        /// Whether weights of the colour, and of features in their own filter, are smoothed over patch radius less 1; not the
+        /// candidates'.
+        weight_smoothing: Option<bool> = None, flag().or_null();
+        /// Whether opposite neighbours share the weight of their mean.
+        symmetric_pairs: Option<bool> = None, flag().or_null();
+        /// What windows see beyond the image.
+        window_border: Option<WindowBorder> = None, choice::<WindowBorder>().or_null();
+        /// What the patch around a pixel sees beyond the image.
+        patch_taps: Option<PatchTaps> = None, choice::<PatchTaps>().or_null();
         /// What sampling densities are made of.
         density: Option<Density> = None, choice::<Density>().or_null().section("Sec. 8");
     }

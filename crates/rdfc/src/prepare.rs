@@ -31,6 +31,7 @@ impl Prepared<'_> {
             denominator: settings.denominator,
             center: settings.center,
             epsilon: self.epsilon,
+            rules: settings.rules,
             ..NlmParams::new(self.frame.width(), self.frame.height(), radius, k)
         }
     }

@@ -24,8 +24,8 @@ impl Choice {
     }
 }
 
-/// The candidate of least error estimate. FIRST is none where its mean derivative is not below SECOND's: its estimate
-/// is then thought to be low by chance (Sec. 6). `errors` and `derivatives` are those of FIRST, SECOND, THIRD.
+/// The candidate of least error estimate. FIRST is none where its mean derivative is not below SECOND's (or not above it,
+/// with [`Ties::Program`]): its estimate is then thought to be low by chance (Sec. 6). `errors` and `derivatives` are those of FIRST, SECOND, THIRD.
 ///
 /// Alg. 1, line 21 is printed as e_b < e_r ∧ e_g < e_b for THIRD; e_b < e_r ∧ e_b < e_g is meant, else SECOND
 /// and THIRD are chosen together and THIRD never where it is best. A pixel where FIRST is least but no candidate
@@ -34,13 +34,17 @@ impl Choice {
 pub fn select(errors: [f32; 3], derivatives: [f32; 3], ties: Ties) -> Choice {
     let [first, second, third] = errors;
     // Alg. 1, line 19.
-    if first < second && first < third && derivatives[0] < derivatives[1] {
+    let filters_more = match ties {
+        Ties::Program => derivatives[0] <= derivatives[1],
+        Ties::Earlier | Ties::Later => derivatives[0] < derivatives[1],
+    };
+    if first < second && first < third && filters_more {
         return Choice::First;
     }
     // Alg. 1, line 20 for SECOND; Alg. 1, line 21, as it is meant, for THIRD. Of ties the lines say nothing.
     let third_wins = match ties {
         Ties::Earlier => third < second,
-        Ties::Later => third <= second,
+        Ties::Later | Ties::Program => third <= second,
     };
     if third_wins { Choice::Third } else { Choice::Second }
 }

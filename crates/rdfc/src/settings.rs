@@ -1,11 +1,13 @@
 //! The parameters with every "as the profile says" resolved.
 
 use noisefloor_frame::Far;
-use noisefloor_kernels::nlm::{Center, Denominator, GuideDenominator, Rule};
+use noisefloor_kernels::nlm::{
+    Border, Center, Denominator, GuideDenominator, Pairs, Rule, Smoothing, Taps, WeightRules,
+};
 
 use crate::params::{
-    CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, Profile,
-    SecondPass, Ties,
+    CenterWeight, ColorDenominator, Density, DepthRange, DerivativeRule, FeatureDenominator, PatchTaps,
+    Profile, SecondPass, Ties, WindowBorder,
 };
 use crate::{Gradient, Params, VarianceScaling};
 
@@ -29,6 +31,10 @@ struct Choices {
     second_pass: SecondPass,
     second_pass_denominator: ColorDenominator,
     map_patch: usize,
+    weight_smoothing: bool,
+    symmetric_pairs: bool,
+    window_border: WindowBorder,
+    patch_taps: PatchTaps,
     density: Density,
 }
 
@@ -45,7 +51,11 @@ impl Choices {
         second_pass: SecondPass::Text,                   // Alg. 1, line 27
         second_pass_denominator: ColorDenominator::Pair, // Sec. 4, Δ²
         map_patch: 1,                                    // Alg. 1, line 15 and Alg. 1, line 22
-        density: Density::Text,                          // Sec. 8
+        weight_smoothing: false,
+        symmetric_pairs: false,
+        window_border: WindowBorder::Clipped,
+        patch_taps: PatchTaps::Mirrored,
+        density: Density::Text, // Sec. 8
     };
     /// The authors' program: read off its source, not printed.
     const AUTHORS: Self = Self {
@@ -54,16 +64,25 @@ impl Choices {
         feature_denominator: FeatureDenominator::Pair,
         center_weight: CenterWeight::LargestNeighbor,
         derivative: DerivativeRule::Joint,
-        ties: Ties::Later,
+        ties: Ties::Program,
         second_pass: SecondPass::Code,
         second_pass_denominator: ColorDenominator::TwiceCentre,
         map_patch: 3,
+        weight_smoothing: true,
+        symmetric_pairs: true,
+        window_border: WindowBorder::Mirrored,
+        patch_taps: PatchTaps::Clipped,
         density: Density::Code,
     };
     /// What wins by measurement.
     const BEST: Self = Self {
         gradient: Gradient::Central,
         derivative: DerivativeRule::Exact,
+        ties: Ties::Later,
+        weight_smoothing: false,
+        symmetric_pairs: false,
+        window_border: WindowBorder::Clipped,
+        patch_taps: PatchTaps::Mirrored,
         // It takes light from pixels that are brighter than their surroundings, and gains little elsewhere.
         second_pass: SecondPass::Off,
         density: Density::Effective,
@@ -88,7 +107,29 @@ impl Choices {
                 .second_pass_denominator
                 .unwrap_or(profile.second_pass_denominator),
             map_patch: params.map_patch_radius_px.unwrap_or(profile.map_patch),
+            weight_smoothing: params.weight_smoothing.unwrap_or(profile.weight_smoothing),
+            symmetric_pairs: params.symmetric_pairs.unwrap_or(profile.symmetric_pairs),
+            window_border: params.window_border.unwrap_or(profile.window_border),
+            patch_taps: params.patch_taps.unwrap_or(profile.patch_taps),
             density: params.density.unwrap_or(profile.density),
+        }
+    }
+}
+
+impl Choices {
+    /// What the engine does beside the printed weights.
+    fn rules(&self) -> WeightRules {
+        WeightRules {
+            smoothing: if self.weight_smoothing { Smoothing::BelowPatch } else { Smoothing::None },
+            pairs: if self.symmetric_pairs { Pairs::Near } else { Pairs::None },
+            border: match self.window_border {
+                WindowBorder::Clipped => Border::Clipped,
+                WindowBorder::Mirrored => Border::Mirrored,
+            },
+            taps: match self.patch_taps {
+                PatchTaps::Mirrored => Taps::Mirrored,
+                PatchTaps::Clipped => Taps::Clipped,
+            },
         }
     }
 }
@@ -109,6 +150,8 @@ pub(crate) struct Settings {
     pub second_pass: SecondPass,
     pub second_denominator: GuideDenominator,
     pub map_patch: usize,
+    /// Of every filter but the candidates.
+    pub rules: WeightRules,
     pub density: Density,
 }
 
@@ -121,6 +164,11 @@ pub(crate) struct Prefilter {
 }
 
 impl Settings {
+    /// Rules of the candidates: a smoothed weight would have no derivative.
+    pub fn candidate_rules(&self) -> WeightRules {
+        WeightRules { smoothing: Smoothing::None, ..self.rules }
+    }
+
     pub fn new(params: &Params) -> Self {
         let choices = Choices::of(params);
         Self {
@@ -157,6 +205,7 @@ impl Settings {
                 ColorDenominator::TwiceCentre => GuideDenominator::TwiceCenter,
             },
             map_patch: choices.map_patch,
+            rules: choices.rules(),
             density: choices.density,
         }
     }

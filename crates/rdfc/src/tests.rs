@@ -1,7 +1,9 @@
 //! Parts that no output shows by themselves.
 
 use noisefloor_frame::{Far, Image};
-use noisefloor_kernels::nlm::{Center, Denominator, GuideDenominator, Rule};
+use noisefloor_kernels::nlm::{
+    Border, Center, Denominator, GuideDenominator, Pairs, Rule, Smoothing, Taps, WeightRules,
+};
 
 use crate::candidates::{plausible, steps};
 use crate::features::squared_slope;
@@ -21,13 +23,22 @@ fn profiles_decide_what_is_left_open() {
     let program = Settings::new(&Params { profile: Profile::Authors, ..Params::default() });
     let center = Center::LargestNeighbor { least: 1e-3 };
     assert_eq!((program.denominator, program.center, program.rule), (Denominator::Pair, center, Rule::Joint));
-    assert_eq!((program.ties, program.second_pass, program.map_patch), (Ties::Later, SecondPass::Code, 3));
+    assert_eq!((program.ties, program.second_pass, program.map_patch), (Ties::Program, SecondPass::Code, 3));
     assert_eq!(
         (program.gradient, program.far, program.density),
         (Gradient::MinHalf, Far::Common, Density::Code)
     );
     assert_eq!(program.second_denominator, GuideDenominator::TwiceCenter);
+    let rules = WeightRules {
+        smoothing: Smoothing::BelowPatch,
+        pairs: Pairs::Near,
+        border: Border::Mirrored,
+        taps: Taps::Clipped,
+    };
+    assert_eq!((program.rules, paper.rules), (rules, WeightRules::default()));
+    assert_eq!(program.candidate_rules(), WeightRules { smoothing: Smoothing::None, ..rules });
     let best = Settings::new(&Params::default());
+    assert_eq!((best.ties, best.rules), (Ties::Later, WeightRules::default()));
     assert_eq!((best.density, best.second_pass), (Density::Effective, SecondPass::Off));
     assert_eq!(
         (best.rule, best.gradient, best.second_denominator),

@@ -6,13 +6,14 @@ use super::Plane;
 pub(crate) const MAX_LANES: usize = 16;
 
 /// Adding this to a value of less than 2^21 leaves the nearest integer in the low bits of the mantissa.
-pub(super) const ROUND: f32 = 12_582_912.0;
+pub(crate) const ROUND: f32 = 12_582_912.0;
 
 /// Minimax polynomial of 2^f on [-1/2, 1/2], constant term 1, from the highest power down.
-const EXP2: [f32; 6] = [0.001_327_647_2, 0.009_675_542, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.0];
+pub(crate) const EXP2: [f32; 6] =
+    [0.001_327_647_2, 0.009_675_542, 0.055_507_133, 0.240_221_2, 0.693_146_97, 1.0];
 
 /// Least exponent whose power of 2 is a normal number.
-const LEAST_EXPONENT: f32 = -126.0;
+pub(crate) const LEAST_EXPONENT: f32 = -126.0;
 
 /// Vector operations of one instruction set. A value of this type exists only where the processor has it.
 pub(crate) trait Simd: Copy {

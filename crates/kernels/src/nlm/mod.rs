@@ -20,15 +20,21 @@
 //! window serves several [`Pass`]es, which differ in patch and τ and share the rest. Frames beside the target widen
 //! the window in time.
 //!
+//! That is the printed filter, with the window clipped. [`WeightRules`] switches on what the authors' programs do beside it: smoothed
+//! weights, weights that opposite neighbours share, mirrored windows, patches without taps beyond the image. They run in a second
+//! form, map by map, at two to five times the cost.
+//!
 //! With a [`Perturbation`] a pass also gives the derivative of the filtered guide by the guide's own value at p, as a
 //! finite difference: what Stein's unbiased risk estimate needs (Sec. 6, below Eq. 5).
 
 mod error;
 mod hot;
 mod layout;
+mod maps;
 pub mod naive;
 mod params;
-pub(crate) mod tiled;
+mod rules;
+mod tiled;
 
 pub use error::NlmError;
 pub use params::{
@@ -37,6 +43,8 @@ pub use params::{
     MAX_VALUE, MAX_VARIANCE, MAX_WINDOW_RADIUS, MIN_EPSILON, MIN_FLOOR, MIN_K, NlmInputs, NlmParams, Pass,
     Perturbation, Planes, Rule,
 };
+
+pub use rules::{Border, PAIR_LIMIT, Pairs, Smoothing, Taps, WeightRules};
 
 use crate::engine::{InstructionSet, TILE};
 
@@ -82,12 +90,27 @@ pub fn filter_at(
     if !level.is_available() {
         return Err(NlmError::LevelUnavailable { level });
     }
-    Ok(tiled::filter(params, passes, inputs, level, tile(inputs)))
+    Ok(in_tiles(params, passes, inputs, level, None))
 }
 
-/// Size of tiles: taller ones compute fewer distances of patches that lie across their borders, as long as the planes of what
-/// they read at neighbours stay in the second cache.
-fn tile(inputs: &NlmInputs<'_>) -> (usize, usize) {
+/// Runs checked passes in the form that their rules ask for, in tiles of its own size or another.
+pub(crate) fn in_tiles(
+    params: &NlmParams,
+    passes: &[Pass],
+    inputs: &NlmInputs<'_>,
+    level: InstructionSet,
+    tile: Option<(usize, usize)>,
+) -> Vec<Filtered> {
+    if params.rules == WeightRules::default() {
+        tiled::filter(params, passes, inputs, level, tile.unwrap_or(tile_of(inputs)))
+    } else {
+        maps::filter(params, passes, inputs, level, tile.unwrap_or(maps::TILE))
+    }
+}
+
+/// Size of tiles of the fused form: taller ones compute fewer distances of patches that lie across their borders, as long as
+/// the planes of what they read at neighbours stay in the second cache.
+fn tile_of(inputs: &NlmInputs<'_>) -> (usize, usize) {
     let (width, height) = TILE;
     (width, if inputs.frame.features.is_empty() { 2 * height } else { height })
 }

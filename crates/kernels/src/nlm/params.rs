@@ -1,6 +1,6 @@
 //! Parameters and input planes of the engine, and the check that both make sense. All limits are ours.
 
-use super::NlmError;
+use super::{NlmError, Smoothing, WeightRules};
 use crate::engine::first_bad;
 
 /// Largest window radius in pixels.
@@ -42,7 +42,7 @@ pub struct NlmParams {
     pub width: usize,
     /// Image height in pixels, at least 1.
     pub height: usize,
-    /// Window radius r in pixels: (2r+1)² pixels, clipped at the image border. 0 to [`MAX_WINDOW_RADIUS`].
+    /// Window radius r in pixels: (2r+1)² pixels, at the image border by [`WeightRules::border`]. 0 to [`MAX_WINDOW_RADIUS`].
     pub window_radius: usize,
     /// k: damping of guide distances, [`MIN_K`] to [`MAX_K`]. Larger blurs more.
     pub k: f32,
@@ -60,6 +60,8 @@ pub struct NlmParams {
     pub denominator: Denominator,
     /// Weight of the pixel itself.
     pub center: Center,
+    /// What the authors' programs do beside the printed formulas.
+    pub rules: WeightRules,
 }
 
 /// Denominator of Δ², beside ε.
@@ -185,9 +187,28 @@ pub struct Filtered<T = f32> {
     pub derivative: Vec<Vec<T>>,
 }
 
+impl Filtered {
+    /// Planes of zeros for a pass over images of `size` pixels.
+    pub(super) fn empty(size: usize, targets: usize, pass: &Pass) -> Self {
+        let plane = || vec![0.0f32; size];
+        Self {
+            planes: (0..targets).map(|_| plane()).collect(),
+            weight_sum: plane(),
+            center_share: plane(),
+            derivative: (0..if pass.derivative { 3 } else { 0 }).map(|_| plane()).collect(),
+        }
+    }
+
+    /// All planes: the targets, Σ w, the centre's share, then the derivatives.
+    pub(super) fn planes_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
+        let sums = [&mut self.weight_sum, &mut self.center_share];
+        self.planes.iter_mut().chain(sums).chain(&mut self.derivative).map(Vec::as_mut_slice)
+    }
+}
+
 impl NlmParams {
-    /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, the printed denominators, centre weight 1; k_f = 0.6 as in
-    /// rousselle2013rdfc, Alg. 1, lines 9, 11 and 13.
+    /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, the printed denominators and weights, centre weight 1; k_f = 0.6
+    /// as in rousselle2013rdfc, Alg. 1, lines 9, 11 and 13.
     #[must_use]
     pub fn new(width: usize, height: usize, window_radius: usize, k: f32) -> Self {
         Self {
@@ -201,6 +222,7 @@ impl NlmParams {
             feature_k: 0.6,
             denominator: Denominator::Center,
             center: Center::One,
+            rules: WeightRules::default(),
         }
     }
 
@@ -258,6 +280,11 @@ impl NlmParams {
 
     fn check_derivative(&self, passes: &[Pass], inputs: &NlmInputs<'_>) -> Result<(), NlmError> {
         if passes.iter().any(|pass| pass.derivative && pass.patch.is_some()) {
+            if self.rules.smoothing != Smoothing::None {
+                // A smoothed weight of p depends on the patches of the pixels around p.
+                let what = "smoothed weights have no derivative by the guide".into();
+                return Err(NlmError::Mismatch { what });
+            }
             if inputs.perturbation.is_none() {
                 let what = "a pass with a derivative needs a perturbation".into();
                 return Err(NlmError::Mismatch { what });

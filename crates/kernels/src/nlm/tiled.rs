@@ -20,7 +20,7 @@ struct Job<'a> {
 
 /// Runs checked passes. They are split into sweeps of at most two τ and one patch radius, or the radii 3 and 1: each
 /// pair of radii is compiled for itself, and this is the one that rousselle2013rdfc asks for.
-pub(crate) fn filter(
+pub(super) fn filter(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
@@ -114,20 +114,9 @@ fn sweep(
         level,
     };
     let size = params.width * params.height;
-    let plane = || vec![0.0f32; size];
-    let mut out: Vec<Filtered> = passes
-        .iter()
-        .map(|pass| Filtered {
-            planes: (0..job.layout.targets).map(|_| plane()).collect(),
-            weight_sum: plane(),
-            center_share: plane(),
-            derivative: (0..if pass.derivative { 3 } else { 0 }).map(|_| plane()).collect(),
-        })
-        .collect();
-    let planes = out.iter_mut().flat_map(|f| {
-        let (targets, derivative) = (f.planes.iter_mut(), f.derivative.iter_mut());
-        targets.chain([&mut f.weight_sum, &mut f.center_share]).chain(derivative).map(Vec::as_mut_slice)
-    });
+    let mut out: Vec<Filtered> =
+        passes.iter().map(|pass| Filtered::empty(size, job.layout.targets, pass)).collect();
+    let planes = out.iter_mut().flat_map(Filtered::planes_mut);
     for_each_tile(
         params.width,
         tile_size,

@@ -45,16 +45,19 @@ fn the_risk_estimate_is_unbiased_where_weights_do_not_depend_on_the_colour() {
 #[test]
 fn the_least_estimate_wins_and_first_only_with_the_smaller_derivative() {
     let even = [0.2, 0.2, 0.2];
-    for ties in [Ties::Earlier, Ties::Later] {
+    for ties in [Ties::Earlier, Ties::Later, Ties::Program] {
         assert_eq!(select([3.0, 1.0, 2.0], even, ties), Choice::Second);
-        assert_eq!(select([1.0, 2.0, 3.0], even, ties), Choice::Second);
+        // Of equal derivatives the program lets FIRST have its way.
+        let or_first = |other| if ties == Ties::Program { Choice::First } else { other };
+        assert_eq!(select([1.0, 2.0, 3.0], even, ties), or_first(Choice::Second));
         assert_eq!(select([1.0, 2.0, 3.0], [0.3, 0.2, 0.1], ties), Choice::Second);
         assert_eq!(select([1.0, 2.0, 3.0], [0.1, 0.2, 0.3], ties), Choice::First);
         assert_eq!(select([2.0, 3.0, 1.0], even, ties), Choice::Third);
-        assert_eq!(select([1.0, 3.0, 2.0], even, ties), Choice::Third);
+        assert_eq!(select([1.0, 3.0, 2.0], even, ties), or_first(Choice::Third));
     }
     assert_eq!(select([3.0, 1.0, 1.0], even, Ties::Earlier), Choice::Second);
     assert_eq!(select([3.0, 1.0, 1.0], even, Ties::Later), Choice::Third);
+    assert_eq!(select([3.0, 1.0, 1.0], even, Ties::Program), Choice::Third);
 }
 
 #[test]

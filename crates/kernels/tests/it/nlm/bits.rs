@@ -7,7 +7,22 @@ fn cases() -> Vec<Case> {
     let mut authors = Case::random(70, 21, 10, &candidates(true), &[2]).with_step(Rule::Joint);
     authors.params.denominator = Denominator::Pair;
     authors.params.center = Center::LargestNeighbor { least: 1e-3 };
-    vec![both, authors]
+    let rules = WeightRules {
+        smoothing: Smoothing::None,
+        pairs: Pairs::Near,
+        border: Border::Mirrored,
+        taps: Taps::Clipped,
+    };
+    let mut program = authors.clone();
+    program.params.rules = rules;
+    let mut printed =
+        Case::random(67, 45, 3, &candidates(true), &[1]).with_step(Rule::Exact).with_neighbors(1);
+    printed.params.rules = WeightRules { pairs: Pairs::Raw, ..WeightRules::default() };
+    let mut smooth = Case::random(67, 45, 4, &candidates(false), &[2]);
+    smooth.params.rules = WeightRules { smoothing: Smoothing::BelowPatch, ..rules };
+    let mut tiny = Case::random(1, 1, 4, &candidates(false), &[2]);
+    tiny.params.rules = smooth.params.rules;
+    vec![both, authors, program, printed, smooth, tiny]
 }
 
 fn bits(filtered: &[Filtered]) -> Vec<u32> {

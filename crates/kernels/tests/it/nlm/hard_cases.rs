@@ -35,6 +35,10 @@ fn extreme_values_give_finite_results() {
                     case.frame.targets.iter_mut().for_each(&mut wild);
                     case.params = NlmParams { center, k, feature_k: k, ..case.params };
                     finite(&case.fast());
+                    for pairs in [Pairs::Near, Pairs::Raw] {
+                        case.params.rules = WeightRules { pairs, ..WeightRules::default() };
+                        finite(&case.fast());
+                    }
                 }
             }
         }

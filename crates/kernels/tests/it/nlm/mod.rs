@@ -2,6 +2,7 @@ mod bits;
 mod hard_cases;
 mod oracle;
 mod properties;
+mod rules;
 
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::inside::nlm_in_tiles;

@@ -9,7 +9,7 @@ const TOLERANCE: f64 = 4e-6;
 const DERIVATIVE: f64 = 2.5e-4;
 
 #[track_caller]
-fn agrees(case: &Case) {
+pub(super) fn agrees(case: &Case) {
     let worst = deviations(&case.fast(), &case.oracle());
     let limits = [TOLERANCE, TOLERANCE, TOLERANCE, DERIVATIVE];
     let size = (case.params.width, case.params.height, case.params.window_radius);
