@@ -142,7 +142,14 @@ impl<const C: usize> BlockTree<C> {
     /// Everything pushed so far, smallest subtrees merged first.
     #[must_use]
     pub fn total(&self) -> Moments<C> {
-        let mut total = Moments::default();
+        self.total_with(Moments::default())
+    }
+
+    /// The same with one more leaf, which may be empty and stays outside: what pushing it first would give, bit for
+    /// bit.
+    #[must_use]
+    pub fn total_with(&self, last: Moments<C>) -> Moments<C> {
+        let mut total = last;
         for (level, subtree) in self.levels.iter().enumerate() {
             if self.leaves >> level & 1 == 1 {
                 let mut left = *subtree;
@@ -233,6 +240,13 @@ mod tests {
         }
         assert_eq!(at_once.total(), pieces.total());
         assert_eq!(at_once.total().count(), samples.len() as u64);
+        for count in 0..leaves.len() {
+            let mut tree = BlockTree::default();
+            leaves[..count].iter().for_each(|leaf| tree.push(*leaf));
+            let with = tree.total_with(leaves[count]);
+            tree.push(leaves[count]);
+            assert_eq!(with, tree.total());
+        }
     }
 
     #[test]
