@@ -5,7 +5,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use crate::planes::{Planes, Sheet};
+use crate::planes::{Planes, Strip};
 use crate::{Progress, RenderError};
 
 /// Size of an image and the work in one of its pixels.
@@ -22,33 +22,33 @@ pub struct Extent {
 /// Samples in one piece of work: long enough that handing it out costs nothing, short enough to share evenly.
 const PIECE_SAMPLES: usize = 8192;
 
-/// Most pixels in one: their values should not fill a cache.
+/// Most pixels in one: all their values should fit a cache.
 const PIECE_PIXELS: usize = 256;
 
-/// Calls `pixel(scratch, index, values)` once for each pixel, numbered row by row; `values` has as many as the sheet says. Which thread does it
-/// makes no difference to the result, because pixels share nothing.
+/// Calls `pixel(scratch, index, strip, at)` once for each pixel, numbered row by row, for its values at a place in a
+/// strip of images with so many planes. Which thread does it makes no difference to the result, because pixels share
+/// nothing.
 ///
 /// # Errors
 /// [`RenderError::Cancelled`], [`RenderError::Memory`].
 pub fn develop<T>(
     extent: Extent,
-    sheet: &Sheet,
+    images: &[usize],
     progress: &dyn Progress,
     scratch: impl Fn() -> T + Sync + Send,
-    pixel: impl Fn(&mut T, usize, &mut [f32]) + Sync + Send,
+    pixel: impl Fn(&mut T, usize, &mut Strip, usize) + Sync + Send,
 ) -> Result<Planes, RenderError> {
     let count = extent.width * extent.height;
     let piece = (PIECE_SAMPLES / extent.samples.max(1) as usize).clamp(1, PIECE_PIXELS);
-    let done = Mutex::new(Planes::zeros(extent.width, extent.height, sheet)?);
-    let scratch = || (scratch(), vec![0.0f32; piece * sheet.values]);
-    (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(scratch, |(scratch, values), index| {
+    let done = Mutex::new(Planes::zeros(extent.width, extent.height, images)?);
+    let scratch = || (scratch(), Strip::new(piece, images));
+    (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(scratch, |(scratch, strip), index| {
         let range = index * piece..((index + 1) * piece).min(count);
-        let values = &mut values[..range.len() * sheet.values];
-        for (at, values) in range.clone().zip(values.chunks_exact_mut(sheet.values)) {
-            pixel(scratch, at, values);
+        for (at, index) in range.clone().enumerate() {
+            pixel(scratch, index, strip, at);
         }
         // A poisoned lock only means that another piece panicked; the planes are plain numbers.
-        done.lock().unwrap_or_else(PoisonError::into_inner).write(sheet, range.start, values);
+        done.lock().unwrap_or_else(PoisonError::into_inner).write(strip, range.start, range.len());
         match progress.advance(range.len()) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RenderError::Cancelled),

@@ -1,7 +1,6 @@
 //! From a request to the values of a pixel and to the planes that are kept.
 
 use crate::columns::{COLOR, Column, Columns};
-use crate::planes::Sheet;
 use crate::table::Joined;
 use crate::tally::{Summary, Tally};
 use crate::{Integrator, Keep, Quantity, Recorded, RenderError, RenderRequest};
@@ -15,8 +14,10 @@ pub struct Plan {
     pub color: Keep,
     /// Whether the scene or the request needs what most do not.
     pub extras: bool,
-    /// The values of a pixel: what a [`Summary`] has, then what is derived from it; and the planes.
-    pub sheet: Sheet,
+    /// Planes of each image that a frame is put together from, in order.
+    pub images: Vec<usize>,
+    /// For each plane the value that it has: of those of a [`Summary`], or behind them of those derived from it.
+    sources: Vec<usize>,
     derived: Vec<Derived>,
 }
 
@@ -76,65 +77,74 @@ impl Plan {
             || scene.medium.is_some()
             || !scene.bodies.is_empty();
         let columns = Columns::new(&kept);
-        let mut plan = Self { columns, color: limit, extras, sheet: Sheet::default(), derived: Vec::new() };
+        let (images, sources, derived) = (Vec::new(), Vec::new(), Vec::new());
+        let mut plan = Self { columns, color: limit, extras, images, sources, derived };
         plan.lay_out();
         Ok(plan)
     }
 
     /// Lists the planes, image by image in the order in which a frame is put together.
     fn lay_out(&mut self) {
-        let Columns { accumulated, all, list } = self.columns.clone();
-        let part = |part: usize, first: usize, channels: usize| {
-            let first = part * accumulated + first;
-            first..first + channels
-        };
-        let mut derived = |value: Derived| {
-            self.derived.push(value);
-            3 * accumulated + all + self.derived.len() - 1
-        };
-        let sheet = &mut self.sheet;
-        let estimate = |sheet: &mut Sheet, first: usize, channels: usize, keep: Keep| {
-            let parts = [(0, true), (1, keep.variance), (2, keep.halves), (3, keep.halves)];
-            for (number, _) in parts.iter().filter(|(_, kept)| *kept) {
-                sheet.image(part(*number, first, channels));
-            }
-        };
-        estimate(sheet, 0, COLOR, self.color);
+        let Columns { accumulated, list, .. } = self.columns.clone();
+        self.estimate(0, COLOR, self.color);
         for Column { row, keep, first, channels } in list {
             match row.joined {
-                Joined::Mean => estimate(sheet, first, channels, keep),
-                Joined::Pair => {
-                    estimate(sheet, first, channels, keep);
-                    estimate(sheet, first + channels, channels, keep);
-                    if keep.variance {
-                        let covariance = (0..channels).map(|c| {
-                            let of = |k: usize| accumulated + first + k * channels + c;
-                            derived(Derived::Covariance([of(0), of(1), of(2)]))
-                        });
-                        sheet.image(covariance.collect::<Vec<_>>());
-                    }
-                }
+                Joined::Mean => self.estimate(first, channels, keep),
+                Joined::First => self.image(3 * accumulated + first..3 * accumulated + first + channels),
                 Joined::Ratio => {
-                    let of = |number: usize| (number * accumulated + first, number * accumulated + first + 1);
-                    let ((a, b), (even_a, even_b), (odd_a, odd_b)) = (of(0), of(2), of(3));
-                    sheet.image([derived(Derived::Ratio(a, b))]);
+                    let pair = |part: usize| (part * accumulated + first, part * accumulated + first + 1);
+                    let ratio = |part: usize| Derived::Ratio(pair(part).0, pair(part).1);
+                    self.derive([ratio(0)]);
                     if keep.variance {
-                        sheet.image([derived(Derived::RatioVariance(a, b))]);
+                        self.derive([Derived::RatioVariance(pair(0).0, pair(0).1)]);
                     }
                     if keep.halves {
-                        sheet.image([derived(Derived::Ratio(even_a, even_b))]);
-                        sheet.image([derived(Derived::Ratio(odd_a, odd_b))]);
+                        self.derive([ratio(2)]);
+                        self.derive([ratio(3)]);
                     }
                 }
-                Joined::First => sheet.image(part(3, first, channels)),
+                Joined::Pair => {
+                    self.estimate(first, channels, keep);
+                    self.estimate(first + channels, channels, keep);
+                    if keep.variance {
+                        let of = |k: usize, c: usize| accumulated + first + k * channels + c;
+                        self.derive(
+                            (0..channels).map(|c| Derived::Covariance([of(0, c), of(1, c), of(2, c)])),
+                        );
+                    }
+                }
             }
         }
-        sheet.values = 3 * accumulated + all + self.derived.len();
+    }
+
+    /// Adds an image of these values.
+    fn image(&mut self, sources: impl IntoIterator<Item = usize>) {
+        let before = self.sources.len();
+        self.sources.extend(sources);
+        self.images.push(self.sources.len() - before);
+    }
+
+    /// Adds an image of values that are made of others.
+    fn derive(&mut self, derived: impl IntoIterator<Item = Derived>) {
+        let Columns { accumulated, all, .. } = self.columns;
+        let before = self.derived.len();
+        self.derived.extend(derived);
+        let summary = 3 * accumulated + all;
+        self.image(summary + before..summary + self.derived.len());
+    }
+
+    /// Adds what is kept of some values: four images at most.
+    fn estimate(&mut self, first: usize, channels: usize, keep: Keep) {
+        let parts = [true, keep.variance, keep.halves, keep.halves];
+        for part in (0..4).filter(|part| parts[*part]) {
+            let first = part * self.columns.accumulated + first;
+            self.image(first..first + channels);
+        }
     }
 
     /// Planes of a frame.
     pub fn planes(&self) -> usize {
-        self.sheet.sources.len()
+        self.sources.len()
     }
 
     /// A tally of what is recorded.
@@ -144,32 +154,33 @@ impl Plan {
 
     /// Room for what such a tally comes to.
     pub fn summary(&self) -> Summary {
-        Summary::new(self.columns.accumulated, self.columns.all)
+        Summary::new(self.columns.accumulated, self.columns.all, self.derived.len())
     }
 
     /// The means of a tally, and what its first sample had: a sample like those that it has seen.
     pub fn means(&self, summary: &Summary) -> Vec<f32> {
-        let Columns { accumulated, .. } = self.columns;
-        let values = summary.values[..accumulated].iter().chain(&summary.values[4 * accumulated..]);
+        let Columns { accumulated, all, .. } = self.columns;
+        let first = 4 * accumulated..3 * accumulated + all;
+        let values = summary.values[..accumulated].iter().chain(&summary.values[first]);
         values.map(|value| *value as f32).collect()
     }
 
-    /// Writes all values of a pixel.
+    /// Writes all values of a pixel, one per plane.
     #[inline]
-    pub fn write(&self, tally: &Tally, summary: &mut Summary, out: &mut [f32]) {
+    pub fn write<'a>(&self, tally: &Tally, summary: &mut Summary, planes: impl Iterator<Item = &'a mut f32>) {
         tally.summarise(summary);
-        let values = &summary.values;
-        let (plain, derived) = out.split_at_mut(values.len());
-        for (out, value) in plain.iter_mut().zip(values) {
-            *out = *value as f32;
-        }
+        let behind = summary.values.len() - self.derived.len();
+        let (values, derived) = summary.values.split_at_mut(behind);
         for (out, source) in derived.iter_mut().zip(&self.derived) {
             *out = match *source {
                 Derived::Ratio(a, b) => ratio(values[a], values[b]),
                 Derived::RatioVariance(a, b) => ratio_variance(values[a], values[b], summary.samples),
                 // Polarisation: the f64 rounding of the variances is far below any covariance that matters.
                 Derived::Covariance([a, b, sum]) => 0.5 * (values[sum] - values[a] - values[b]),
-            } as f32;
+            };
+        }
+        for (out, source) in planes.zip(&self.sources) {
+            *out = summary.values[*source] as f32;
         }
     }
 }

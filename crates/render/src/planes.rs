@@ -5,27 +5,7 @@ use crate::RenderError;
 /// A frame and its encoded file, each of at most 4 bytes per value.
 pub const BYTES_PER_VALUE: u64 = 8;
 
-/// What is kept of every pixel.
-#[derive(Debug, Clone, Default)]
-pub struct Sheet {
-    /// Values that a pixel comes with.
-    pub values: usize,
-    /// Which of them each plane has.
-    pub sources: Vec<usize>,
-    /// Planes of each image, in order; together one per source.
-    pub images: Vec<usize>,
-}
-
-impl Sheet {
-    /// Adds an image of these values.
-    pub fn image(&mut self, sources: impl IntoIterator<Item = usize>) {
-        let before = self.sources.len();
-        self.sources.extend(sources);
-        self.images.push(self.sources.len() - before);
-    }
-}
-
-/// Images of a sheet, each plane by plane and row by row.
+/// Images, each plane by plane and row by row.
 #[derive(Debug)]
 pub struct Planes {
     pixels: usize,
@@ -33,35 +13,27 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// Images of zeros; an error where the system has no memory for them.
-    pub fn zeros(width: usize, height: usize, sheet: &Sheet) -> Result<Self, RenderError> {
+    /// Images of zeros with so many planes each; an error where the system has no memory for them.
+    pub fn zeros(width: usize, height: usize, images: &[usize]) -> Result<Self, RenderError> {
         let pixels = width * height;
-        let mut images: Vec<Vec<f32>> = Vec::new();
-        for channels in &sheet.images {
+        let mut out = Self { pixels, images: Vec::new() };
+        for channels in images {
             if Vec::<f32>::new().try_reserve_exact(pixels * channels).is_err() {
-                let planes = sheet.sources.len();
+                let planes: usize = images.iter().sum();
                 let bytes = pixels as u64 * planes as u64 * BYTES_PER_VALUE;
-                let allowed = images.iter().map(|image| image.len() as u64 * 4).sum();
+                let allowed = out.images.iter().map(|image| image.len() as u64 * 4).sum();
                 return Err(RenderError::Memory { width, height, planes, bytes, allowed });
             }
-            images.push(vec![0.0; pixels * channels]);
+            out.images.push(vec![0.0; pixels * channels]);
         }
-        Ok(Self { pixels, images })
+        Ok(out)
     }
 
-    /// Writes the values of some pixels, from `first` on.
-    pub fn write(&mut self, sheet: &Sheet, first: usize, values: &[f32]) {
-        // Few enough that all their values stay in the nearest cache while they are read once for every plane.
-        for (block, values) in values.chunks(NEAR * sheet.values).enumerate() {
-            let first = first + block * NEAR;
-            let count = values.len() / sheet.values;
-            let planes = self.images.iter_mut().flat_map(|image| image.chunks_exact_mut(self.pixels));
-            for (plane, source) in planes.zip(&sheet.sources) {
-                let pixels = values.chunks_exact(sheet.values);
-                for (out, pixel) in plane[first..first + count].iter_mut().zip(pixels) {
-                    *out = pixel[*source];
-                }
-            }
+    /// Copies `count` pixels of a strip to where `first` is the first one.
+    pub fn write(&mut self, strip: &Strip, first: usize, count: usize) {
+        let planes = self.images.iter_mut().flat_map(|image| image.chunks_exact_mut(self.pixels));
+        for (plane, values) in planes.zip(strip.values.chunks_exact(strip.stride)) {
+            plane[first..first + count].copy_from_slice(&values[..count]);
         }
     }
 
@@ -71,5 +43,28 @@ impl Planes {
     }
 }
 
-/// Pixels that are spread over the planes together.
-const NEAR: usize = 64;
+/// The planes of a few neighbouring pixels. Threads fill strips of their own: small enough for a near cache, where whole
+/// planes lie too far apart.
+#[derive(Debug)]
+pub struct Strip {
+    values: Vec<f32>,
+    /// From plane to plane.
+    stride: usize,
+}
+
+/// Between planes of a strip: with a distance of a power of two all would fall on the same few places of a cache.
+const GAP: usize = 16;
+
+impl Strip {
+    /// Of so many pixels.
+    pub fn new(pixels: usize, images: &[usize]) -> Self {
+        let stride = pixels + GAP;
+        Self { values: vec![0.0; stride * images.iter().sum::<usize>()], stride }
+    }
+
+    /// All values of a pixel, plane by plane.
+    #[inline(always)]
+    pub fn pixel(&mut self, at: usize) -> impl Iterator<Item = &mut f32> {
+        self.values.chunks_exact_mut(self.stride).filter_map(move |plane| plane.get_mut(at))
+    }
+}

@@ -38,6 +38,21 @@ struct Take {
     background: f32,
 }
 
+impl Take {
+    #[inline(always)]
+    fn put(&self, values: &mut [f32], value: Vec3A) {
+        // One by one: a copy of so few is dearer than they are.
+        let value = value.to_array();
+        values[self.first] = value[0];
+        if self.channels > 1 {
+            values[self.first + 1] = value[1];
+        }
+        if self.channels > 2 {
+            values[self.first + 2] = value[2];
+        }
+    }
+}
+
 /// Keeps what columns ask for.
 #[derive(Debug, Clone)]
 pub struct Recording {
@@ -103,15 +118,17 @@ impl Recording {
     fn describe(&mut self, surface: Option<&Vertex<'_>>) {
         let Some(vertex) = surface else {
             for take in &self.takes {
-                self.values[take.first..take.first + take.channels].fill(take.background);
+                take.put(&mut self.values, Vec3A::splat(take.background));
             }
             return;
         };
         self.way += vertex.hit.t;
+        // Copies: what functions behind pointers look at lies in memory, and only here it should.
+        let (hit, at, event) = (*vertex.hit, *vertex.at, *vertex.event);
+        let vertex = &Vertex { hit: &hit, at: &at, event: &event, ..*vertex };
         let seen = Seen { vertex, tint: self.tint, way: self.way };
         for take in &self.takes {
-            let value = (take.take)(&seen).to_array();
-            self.values[take.first..take.first + take.channels].copy_from_slice(&value[..take.channels]);
+            take.put(&mut self.values, (take.take)(&seen));
         }
     }
 
@@ -147,7 +164,7 @@ impl Recorder for Recording {
         (self.tint, self.way) = (Vec3A::ONE, 0.0);
         (self.base, self.eye_light) = (Vec3A::ZERO, Vec3A::ZERO);
         if let Some(first) = self.shadow_rays {
-            self.values[first..first + 2].fill(0.0);
+            (self.values[first], self.values[first + 1]) = (0.0, 0.0);
         }
     }
 

@@ -9,7 +9,7 @@ use crate::columns::COLOR;
 use crate::film::{Extent, develop};
 use crate::limits::LONGEST_SEQUENCE;
 use crate::plan::Plan;
-use crate::planes::{Planes, Sheet};
+use crate::planes::Planes;
 use crate::provenance::provenance;
 use crate::shot::{Shot, Totals};
 use crate::tally::{Summary, Tally};
@@ -118,39 +118,36 @@ fn frame_planes(shot: &Shot<'_>, progress: &dyn Progress) -> Result<Planes, Rend
     let range = request.sample_start..request.sample_start + request.spp;
     let extent = Extent { width: request.width, height: request.height, samples: request.spp };
     let scratch = || Scratch::new(shot, request.sampling);
-    develop(extent, &plan.sheet, progress, scratch, |scratch, pixel, out| {
+    develop(extent, &plan.images, progress, scratch, |scratch, pixel, strip, at| {
         let Scratch { worker, tally, summary } = scratch;
         tally.clear();
         worker.add(tally, pixel, None, range.clone());
-        plan.write(tally, summary, out);
+        plan.write(tally, summary, strip.pixel(at));
     })
 }
 
 /// Colour means of the parts, then the means over all parts.
 fn reference_planes(shot: &Shot<'_>, parts: u32, progress: &dyn Progress) -> Result<Planes, RenderError> {
     let Shot { request, plan, .. } = shot;
-    let colors = COLOR * parts as usize;
-    let mut sheet = Sheet { values: colors + plan.sheet.values, ..Sheet::default() };
-    for part in 0..parts as usize {
-        sheet.image(COLOR * part..COLOR * (part + 1));
-    }
-    sheet.sources.extend(plan.sheet.sources.iter().map(|source| colors + source));
-    sheet.images.extend(&plan.sheet.images);
+    let images: Vec<usize> = std::iter::repeat_n(COLOR, parts as usize).chain(plan.images.clone()).collect();
     let extent = Extent { width: request.width, height: request.height, samples: request.spp };
     let scratch = || (Scratch::new(shot, Sampling::LowDiscrepancy), plan.tally());
-    develop(extent, &sheet, progress, scratch, |(scratch, all), pixel, out| {
+    develop(extent, &images, progress, scratch, |(scratch, all), pixel, strip, at| {
         let Scratch { worker, tally, summary } = scratch;
-        let (colors, rest) = out.split_at_mut(colors);
+        let mut out = strip.pixel(at);
         all.clear();
-        for (part, color) in (0..parts).zip(colors.chunks_exact_mut(COLOR)) {
+        for part in 0..parts {
             tally.clear();
             worker.add(tally, pixel, Some(part), 0..request.spp / parts);
             tally.summarise(summary);
             let means = plan.means(summary);
-            color.copy_from_slice(&means[..COLOR]);
+            // In this order: the other one would take a plane too many.
+            for (mean, out) in means[..COLOR].iter().zip(&mut out) {
+                *out = *mean;
+            }
             // Parts have equal sample counts: the mean over all samples is the mean of their means.
             all.extend(part, &means);
         }
-        plan.write(all, summary, rest);
+        plan.write(all, summary, out);
     })
 }

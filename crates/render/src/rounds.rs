@@ -9,7 +9,7 @@ use rayon::slice::{ParallelSlice, ParallelSliceMut};
 use crate::assemble::fill;
 use crate::limits::LONGEST_SEQUENCE;
 use crate::plan::Plan;
-use crate::planes::{BYTES_PER_VALUE, Planes};
+use crate::planes::{BYTES_PER_VALUE, Planes, Strip};
 use crate::provenance::provenance;
 use crate::render::blank;
 use crate::shot::{Shot, Totals};
@@ -163,15 +163,13 @@ impl<'a> Rounds<'a> {
                 Samples::per_pixel(counts).with_half_a(Counts::PerPixel(half_a))
             }
         };
-        let mut planes = Planes::zeros(request.width, request.height, &self.plan.sheet)?;
-        let mut summary = self.plan.summary();
-        let mut values = vec![0.0f32; PIECE * self.plan.sheet.values];
+        let mut planes = Planes::zeros(request.width, request.height, &self.plan.images)?;
+        let (mut strip, mut summary) = (Strip::new(PIECE, &self.plan.images), self.plan.summary());
         for (piece, pixels) in self.pixels.chunks(PIECE).enumerate() {
-            let values = &mut values[..pixels.len() * self.plan.sheet.values];
-            for (pixel, values) in pixels.iter().zip(values.chunks_exact_mut(self.plan.sheet.values)) {
-                self.plan.write(&pixel.tally, &mut summary, values);
+            for (at, pixel) in pixels.iter().enumerate() {
+                self.plan.write(&pixel.tally, &mut summary, strip.pixel(at));
             }
-            planes.write(&self.plan.sheet, piece * PIECE, values);
+            planes.write(&strip, piece * PIECE, pixels.len());
         }
         let mut frame = blank(request, samples, request.sampling);
         fill(&self.plan, &mut frame, planes.into_images())?;

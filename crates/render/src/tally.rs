@@ -30,7 +30,8 @@ pub struct Summary {
     /// Samples.
     pub samples: u64,
     /// Means of the accumulated values, variances of these means, means of the even and of the odd samples (each of
-    /// these four parts as long as the first; variances 0 below 2 samples), then what the first sample had.
+    /// these four parts as long as the first; variances 0 below 2 samples), then what the first sample had, then room
+    /// for more.
     pub values: Vec<f64>,
 }
 
@@ -152,8 +153,8 @@ impl Group {
 }
 
 impl Summary {
-    /// Room for what a tally of samples with `all` values comes to, of which `accumulated` are accumulated.
-    pub fn new(accumulated: usize, all: usize) -> Self {
-        Self { samples: 0, values: vec![0.0; 3 * accumulated + all] }
+    /// For a tally of samples with `all` values, of which `accumulated` are accumulated, and for so many more values.
+    pub fn new(accumulated: usize, all: usize, more: usize) -> Self {
+        Self { samples: 0, values: vec![0.0; 3 * accumulated + all + more] }
     }
 }

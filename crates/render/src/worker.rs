@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use glam::Vec4;
 use noisefloor_frame::{BLOCK_SAMPLES, Sampling};
 
 use crate::FeatureHit;
@@ -92,18 +93,24 @@ impl<'a, R: Recorder, const EXTRAS: bool, N: Stream<'a>> Tracer<'a, R, EXTRAS, N
         let color = trace::<_, R, EXTRAS>(scene, ray, view, sampler, recorder, traversal);
         let all = plan.columns.all;
         let values = &mut self.block[row * all..][..all];
-        values[..COLOR].copy_from_slice(&color.to_array());
-        let kept = recorder.values();
-        values[COLOR..COLOR + kept.len()].copy_from_slice(kept);
-        let accumulated = &mut values[..plan.columns.accumulated];
-        // The product with 0 is 0, or no number; lane by lane, so that it is made of vectors.
-        let mut zeros = [0.0f32; LANES];
-        for lanes in accumulated.chunks_exact(LANES) {
-            for (zero, value) in zeros.iter_mut().zip(lanes) {
-                *zero += value * 0.0;
+        let (colors, others) = values.split_at_mut(LANES);
+        // The product with 0 is 0, or no number.
+        let mut zeros = (color * 0.0).extend(0.0);
+        colors[..COLOR].copy_from_slice(&color.to_array());
+        if let Some((next, kept)) = recorder.values().split_first() {
+            colors[COLOR] = *next;
+            zeros.w += next * 0.0;
+            let (lanes, first) = others.split_at_mut(plan.columns.accumulated - LANES);
+            let (kept_lanes, kept_first) = kept.split_at(lanes.len());
+            for (to, from) in lanes.chunks_exact_mut(LANES).zip(kept_lanes.chunks_exact(LANES)) {
+                let from = Vec4::from_slice(from);
+                from.write_to_slice(to);
+                zeros += from * 0.0;
             }
+            first.copy_from_slice(kept_first);
         }
-        let finite = zeros == [0.0; LANES];
+        let finite = zeros == Vec4::ZERO;
+        let accumulated = &mut values[..plan.columns.accumulated];
         if !finite {
             accumulated.fill(0.0);
         }
