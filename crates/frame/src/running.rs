@@ -1,6 +1,17 @@
 /// Samples in a leaf of the fixed merge tree, see [`BlockTree`].
 pub const BLOCK_SAMPLES: u32 = 16;
 
+/// Inverses of the counts in a leaf, which a division would give as well, later. The first is not used.
+const INVERSES: [f64; BLOCK_SAMPLES as usize + 1] = {
+    let mut inverses = [0.0; BLOCK_SAMPLES as usize + 1];
+    let mut count = 1;
+    while count < inverses.len() {
+        inverses[count] = 1.0 / count as f64;
+        count += 1;
+    }
+    inverses
+};
+
 /// Running count, means and centred second moments of `C` quantities, in `f64`.
 ///
 /// A mergeable monoid: [`Moments::push`] is Welford's update, [`Moments::merge`] that of Chan, Golub and
@@ -23,7 +34,11 @@ impl<const C: usize> Moments<C> {
     #[inline]
     pub fn push(&mut self, sample: [f64; C]) {
         self.count += 1;
-        let inverse = 1.0 / self.count as f64; // count ≥ 1 here
+        // count ≥ 1 here
+        let inverse = match INVERSES.get(self.count as usize) {
+            Some(inverse) => *inverse,
+            None => 1.0 / self.count as f64,
+        };
         #[expect(clippy::needless_range_loop, reason = "zipped iterators are not made into vectors here")]
         for c in 0..C {
             let delta = sample[c] - self.mean[c];

@@ -99,11 +99,10 @@ impl Tally {
         let accumulated = self.groups.len() * LANES;
         out.samples = self.counts.iter().map(|count| u64::from(*count)).sum();
         let (statistics, first) = out.values.split_at_mut(4 * accumulated);
-        let halves = self.counts.map(|count| f64::from(count.max(1)));
         for (g, group) in self.groups.iter().enumerate() {
             let total = group.total();
             let variance = total.mean_variance().unwrap_or([0.0; LANES]);
-            let [even, odd] = [0, 1].map(|half| group.sums[half].map(|sum| sum / halves[half]));
+            let [even, odd] = [0, 1].map(|half| over(group.sums[half], self.counts[half].max(1)));
             for (part, lanes) in [total.mean(), variance, even, odd].iter().enumerate() {
                 statistics[part * accumulated + g * LANES..][..LANES].copy_from_slice(lanes);
             }
@@ -123,6 +122,18 @@ impl Tally {
         for (count, more) in self.counts.iter_mut().zip(next.counts) {
             *count += more;
         }
+    }
+}
+
+/// Quotients by a count; by a power of two as products, which are the same and quicker.
+#[inline]
+fn over(sums: [f64; LANES], count: u32) -> [f64; LANES] {
+    let count_f64 = f64::from(count);
+    if count.is_power_of_two() {
+        let inverse = 1.0 / count_f64;
+        sums.map(|sum| sum * inverse)
+    } else {
+        sums.map(|sum| sum / count_f64)
     }
 }
 
