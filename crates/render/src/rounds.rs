@@ -27,8 +27,8 @@ const PIECE: usize = 64;
 /// number of samples carry a map of it. A density that was made from the samples themselves biases their mean; this
 /// type does not know where its numbers come from.
 ///
-/// A pixel takes 208 bytes for the colour alone and 1216 with features and flash (1504 with all there is), and 56 to
-/// 488 more for every doubling of its samples beyond 16.
+/// A pixel takes 232 bytes for the colour alone and 1116 with features and flash (1468 with all there is), and 72 to
+/// 576 more for every doubling of its samples beyond 16.
 #[derive(Debug)]
 pub struct Rounds<'a> {
     request: RenderRequest<'a>,

@@ -11,7 +11,7 @@ pub const LANES: usize = 4;
 pub struct Tally {
     groups: Vec<Group>,
     counts: [u32; 2],
-    first: Vec<f32>,
+    first: Box<[f32]>,
 }
 
 /// Of [`LANES`] values.
@@ -39,7 +39,7 @@ impl Tally {
     /// Nothing seen yet of samples with `all` values, of which the first `accumulated` are, a multiple of [`LANES`].
     pub fn new(accumulated: usize, all: usize) -> Self {
         let groups = vec![Group::default(); accumulated / LANES];
-        Self { groups, counts: [0; 2], first: vec![0.0; all - accumulated] }
+        Self { groups, counts: [0; 2], first: vec![0.0; all - accumulated].into() }
     }
 
     /// Bytes that it takes on the heap, for up to 256 samples.
@@ -75,7 +75,7 @@ impl Tally {
         for (g, group) in self.groups.iter_mut().enumerate() {
             // Copies, so that nothing goes through memory from sample to sample.
             let mut leaf = group.leaf;
-            let (mut own, mut other) = (group.sums[index as usize & 1], group.sums[index as usize + 1 & 1]);
+            let (mut own, mut other) = (group.sums[index as usize & 1], group.sums[(index as usize + 1) & 1]);
             for sample in samples.chunks_exact(all) {
                 let lanes: [f64; LANES] = std::array::from_fn(|lane| f64::from(sample[g * LANES..][lane]));
                 leaf.push(lanes);
@@ -84,7 +84,7 @@ impl Tally {
                 }
                 std::mem::swap(&mut own, &mut other);
             }
-            (group.sums[end as usize & 1], group.sums[end as usize + 1 & 1]) = (own, other);
+            (group.sums[end as usize & 1], group.sums[(end as usize + 1) & 1]) = (own, other);
             group.leaf = leaf;
             if end.is_multiple_of(BLOCK_SAMPLES) {
                 group.tree.push(leaf);
