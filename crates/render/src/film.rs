@@ -1,7 +1,6 @@
 //! Runs a function over all pixels on all threads.
 
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
@@ -40,19 +39,18 @@ pub fn develop<T>(
 ) -> Result<Planes, RenderError> {
     let count = extent.width * extent.height;
     let piece = (PIECE_SAMPLES / extent.samples.max(1) as usize).clamp(1, PIECE_PIXELS);
-    let done = Mutex::new(Planes::zeros(extent.width, extent.height, images)?);
+    let planes = Planes::zeros(extent.width, extent.height, images)?;
     let scratch = || (scratch(), Strip::new(piece, images));
     (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(scratch, |(scratch, strip), index| {
         let range = index * piece..((index + 1) * piece).min(count);
         for (at, index) in range.clone().enumerate() {
             pixel(scratch, index, strip, at);
         }
-        // A poisoned lock only means that another piece panicked; the planes are plain numbers.
-        done.lock().unwrap_or_else(PoisonError::into_inner).write(strip, range.start, range.len());
+        planes.write(strip, range.start, range.len());
         match progress.advance(range.len()) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RenderError::Cancelled),
         }
     })?;
-    Ok(done.into_inner().unwrap_or_else(PoisonError::into_inner))
+    Ok(planes)
 }

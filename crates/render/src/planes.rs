@@ -1,5 +1,7 @@
 //! The planes of an image in the making, and the memory for them.
 
+use std::sync::{Mutex, PoisonError};
+
 use crate::RenderError;
 
 /// A frame and its encoded file, each of at most 4 bytes per value.
@@ -9,7 +11,8 @@ pub const BYTES_PER_VALUE: u64 = 8;
 #[derive(Debug)]
 pub struct Planes {
     pixels: usize,
-    images: Vec<Vec<f32>>,
+    /// Locked one by one, so that threads that write strips follow each other from image to image.
+    images: Vec<Mutex<Vec<f32>>>,
 }
 
 impl Planes {
@@ -17,29 +20,34 @@ impl Planes {
     pub fn zeros(width: usize, height: usize, images: &[usize]) -> Result<Self, RenderError> {
         let pixels = width * height;
         let mut out = Self { pixels, images: Vec::new() };
+        let mut taken = 0;
         for channels in images {
             if Vec::<f32>::new().try_reserve_exact(pixels * channels).is_err() {
                 let planes: usize = images.iter().sum();
                 let bytes = pixels as u64 * planes as u64 * BYTES_PER_VALUE;
-                let allowed = out.images.iter().map(|image| image.len() as u64 * 4).sum();
-                return Err(RenderError::Memory { width, height, planes, bytes, allowed });
+                return Err(RenderError::Memory { width, height, planes, bytes, allowed: taken });
             }
-            out.images.push(vec![0.0; pixels * channels]);
+            taken += (pixels * channels) as u64 * 4;
+            out.images.push(Mutex::new(vec![0.0; pixels * channels]));
         }
         Ok(out)
     }
 
     /// Copies `count` pixels of a strip to where `first` is the first one.
-    pub fn write(&mut self, strip: &Strip, first: usize, count: usize) {
-        let planes = self.images.iter_mut().flat_map(|image| image.chunks_exact_mut(self.pixels));
-        for (plane, values) in planes.zip(strip.values.chunks_exact(strip.stride)) {
-            plane[first..first + count].copy_from_slice(&values[..count]);
+    pub fn write(&self, strip: &Strip, first: usize, count: usize) {
+        let mut values = strip.values.chunks_exact(strip.stride);
+        for image in &self.images {
+            // A poisoned lock only means that another thread panicked; the planes are plain numbers.
+            let mut image = image.lock().unwrap_or_else(PoisonError::into_inner);
+            for (plane, values) in image.chunks_exact_mut(self.pixels).zip(&mut values) {
+                plane[first..first + count].copy_from_slice(&values[..count]);
+            }
         }
     }
 
     /// The images in their order.
     pub fn into_images(self) -> impl Iterator<Item = Vec<f32>> {
-        self.images.into_iter()
+        self.images.into_iter().map(|image| image.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
 }
 

@@ -163,7 +163,7 @@ impl<'a> Rounds<'a> {
                 Samples::per_pixel(counts).with_half_a(Counts::PerPixel(half_a))
             }
         };
-        let mut planes = Planes::zeros(request.width, request.height, &self.plan.images)?;
+        let planes = Planes::zeros(request.width, request.height, &self.plan.images)?;
         let (mut strip, mut summary) = (Strip::new(PIECE, &self.plan.images), self.plan.summary());
         for (piece, pixels) in self.pixels.chunks(PIECE).enumerate() {
             for (at, pixel) in pixels.iter().enumerate() {
