@@ -1,63 +1,66 @@
 use std::fmt;
 
-/// Which auxiliary quantity a per-pixel feature is.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-#[non_exhaustive]
-pub enum FeatureId {
+/// Declares [`FeatureId`] from one row for each feature with a fixed meaning: its name, and its channels in the order of
+/// their planes.
+macro_rules! features {
+    ($($(#[$meaning:meta])* $id:ident $name:literal [$($channel:literal)*],)*) => {
+        /// Which auxiliary quantity a per-pixel feature is.
+        #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        #[non_exhaustive]
+        pub enum FeatureId {
+            $($(#[$meaning])* $id,)*
+            /// Anything else, by the name of its layer.
+            Extra(String),
+        }
+
+        impl FeatureId {
+            /// The features with a fixed meaning.
+            pub const KNOWN: [Self; [$($name),*].len()] = [$(Self::$id),*];
+
+            /// Layer name on disk and in messages.
+            #[must_use]
+            pub fn name(&self) -> &str {
+                match self {
+                    $(Self::$id => $name,)*
+                    Self::Extra(name) => name,
+                }
+            }
+
+            /// Channel names on disk, in plane order; `None` for extra features, whose file decides.
+            #[must_use]
+            pub fn channel_names(&self) -> Option<&'static [&'static str]> {
+                Some(match self {
+                    $(Self::$id => &[$($channel),*],)*
+                    Self::Extra(_) => return None,
+                })
+            }
+        }
+    };
+}
+
+features! {
     /// Diffuse reflectance or specular tint at the hit, [0, 1], 3 channels.
-    Albedo,
+    Albedo "albedo" ["R" "G" "B"],
     /// World-space shading normal facing the viewer, components in [−1, 1], 3 channels.
-    Normal,
+    Normal "normal" ["X" "Y" "Z"],
     /// Distance along the camera ray's direction of travel, scene units, 1 channel; background 0 in
     /// rendered frames (material id −1 tells it from a hit).
-    Depth,
+    Depth "depth" ["Z"],
     /// Shadow rays that reached a light over shadow rays traced at the first hit, 0 if none was, 1 channel.
-    Visibility,
+    Visibility "visibility" ["Y"],
     /// Density of caustic photons, 1 channel.
-    Caustics,
+    Caustics "caustics" ["Y"],
     /// Mean of the sampled BRDF weight, 3 channels.
-    Brdf,
+    Brdf "brdf" ["R" "G" "B"],
     /// Direct light alone, 3 channels.
-    Direct,
+    Direct "direct" ["R" "G" "B"],
     /// Screen-space motion in pixels per frame, 2 channels.
-    Motion,
+    Motion "motion" ["X" "Y"],
     /// Material id of the first sample's first hit, a small non-negative integer, −1 for background, 1 channel.
-    Material,
-    /// Anything else, by the name of its layer.
-    Extra(String),
+    Material "material" ["Y"],
 }
 
 impl FeatureId {
-    /// The features with a fixed meaning.
-    pub const KNOWN: [Self; 9] = [
-        Self::Albedo,
-        Self::Normal,
-        Self::Depth,
-        Self::Visibility,
-        Self::Caustics,
-        Self::Brdf,
-        Self::Direct,
-        Self::Motion,
-        Self::Material,
-    ];
-
-    /// Layer name on disk and in messages.
-    #[must_use]
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Albedo => "albedo",
-            Self::Normal => "normal",
-            Self::Depth => "depth",
-            Self::Visibility => "visibility",
-            Self::Caustics => "caustics",
-            Self::Brdf => "brdf",
-            Self::Direct => "direct",
-            Self::Motion => "motion",
-            Self::Material => "material",
-            Self::Extra(name) => name,
-        }
-    }
-
     /// Inverse of [`FeatureId::name`]; unknown names become [`FeatureId::Extra`].
     #[must_use]
     pub fn from_name(name: &str) -> Self {
@@ -65,19 +68,6 @@ impl FeatureId {
             .into_iter()
             .find(|known| known.name() == name)
             .unwrap_or_else(|| Self::Extra(name.to_owned()))
-    }
-
-    /// Channel names on disk, in plane order; `None` for extra features, whose file decides.
-    #[must_use]
-    pub fn channel_names(&self) -> Option<&'static [&'static str]> {
-        Some(match self {
-            Self::Albedo | Self::Brdf | Self::Direct => &["R", "G", "B"],
-            Self::Normal => &["X", "Y", "Z"],
-            Self::Depth => &["Z"],
-            Self::Visibility | Self::Caustics | Self::Material => &["Y"],
-            Self::Motion => &["X", "Y"],
-            Self::Extra(_) => return None,
-        })
     }
 }
 

@@ -1,6 +1,17 @@
 /// Samples in a leaf of the fixed merge tree, see [`BlockTree`].
 pub const BLOCK_SAMPLES: u32 = 16;
 
+/// Inverses of the counts in a leaf, which a division would give as well, later. The first is not used.
+const INVERSES: [f64; BLOCK_SAMPLES as usize + 1] = {
+    let mut inverses = [0.0; BLOCK_SAMPLES as usize + 1];
+    let mut count = 1;
+    while count < inverses.len() {
+        inverses[count] = 1.0 / count as f64;
+        count += 1;
+    }
+    inverses
+};
+
 /// Running count, means and centred second moments of `C` quantities, in `f64`.
 ///
 /// A mergeable monoid: [`Moments::push`] is Welford's update, [`Moments::merge`] that of Chan, Golub and
@@ -23,7 +34,11 @@ impl<const C: usize> Moments<C> {
     #[inline]
     pub fn push(&mut self, sample: [f64; C]) {
         self.count += 1;
-        let inverse = 1.0 / self.count as f64; // count ≥ 1 here
+        // count ≥ 1 here
+        let inverse = match INVERSES.get(self.count as usize) {
+            Some(inverse) => *inverse,
+            None => 1.0 / self.count as f64,
+        };
         #[expect(clippy::needless_range_loop, reason = "zipped iterators are not made into vectors here")]
         for c in 0..C {
             let delta = sample[c] - self.mean[c];
@@ -73,7 +88,13 @@ impl<const C: usize> Moments<C> {
     /// Variance of the mean under independent sampling, s²/n; `None` below 2 samples.
     #[must_use]
     pub fn mean_variance(&self) -> Option<[f64; C]> {
-        self.sample_variance().map(|s2| s2.map(|s2| s2 / self.count as f64))
+        let count = self.count as f64;
+        // By a power of two a product is the same, and quicker.
+        let inverse = self.count.is_power_of_two().then_some(1.0 / count);
+        self.sample_variance().map(|s2| match inverse {
+            Some(inverse) => s2.map(|s2| s2 * inverse),
+            None => s2.map(|s2| s2 / count),
+        })
     }
 }
 
@@ -142,7 +163,14 @@ impl<const C: usize> BlockTree<C> {
     /// Everything pushed so far, smallest subtrees merged first.
     #[must_use]
     pub fn total(&self) -> Moments<C> {
-        let mut total = Moments::default();
+        self.total_with(Moments::default())
+    }
+
+    /// The same with one more leaf, which may be empty and stays outside: what pushing it first would give, bit for
+    /// bit.
+    #[must_use]
+    pub fn total_with(&self, last: Moments<C>) -> Moments<C> {
+        let mut total = last;
         for (level, subtree) in self.levels.iter().enumerate() {
             if self.leaves >> level & 1 == 1 {
                 let mut left = *subtree;
@@ -233,6 +261,13 @@ mod tests {
         }
         assert_eq!(at_once.total(), pieces.total());
         assert_eq!(at_once.total().count(), samples.len() as u64);
+        for count in 0..leaves.len() {
+            let mut tree = BlockTree::default();
+            leaves[..count].iter().for_each(|leaf| tree.push(*leaf));
+            let with = tree.total_with(leaves[count]);
+            tree.push(leaves[count]);
+            assert_eq!(with, tree.total());
+        }
     }
 
     #[test]

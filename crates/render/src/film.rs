@@ -1,10 +1,10 @@
 //! Runs a function over all pixels on all threads.
 
-use std::sync::Mutex;
+use std::ops::ControlFlow;
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
-use crate::planes::{Planes, zeros};
+use crate::planes::{Planes, Strip};
 use crate::{Progress, RenderError};
 
 /// Size of an image and the work in one of its pixels.
@@ -21,40 +21,36 @@ pub struct Extent {
 /// Samples in one piece of work: long enough that handing it out costs nothing, short enough to share evenly.
 const PIECE_SAMPLES: usize = 8192;
 
-/// Calls `pixel(scratch, x, y, values)` once for each pixel; `values` has one entry per plane. Which thread does it makes
-/// no difference to the result, because pixels share nothing.
+/// Most pixels in one: all their values should fit a cache.
+const PIECE_PIXELS: usize = 256;
+
+/// Calls `pixel(scratch, index, strip, at)` once for each pixel, numbered row by row, for its values at a place in a
+/// strip of images with so many planes. Which thread does it makes no difference to the result, because pixels share
+/// nothing.
 ///
 /// # Errors
 /// [`RenderError::Cancelled`], [`RenderError::Memory`].
 pub fn develop<T>(
     extent: Extent,
-    planes: usize,
+    images: &[usize],
     progress: &dyn Progress,
     scratch: impl Fn() -> T + Sync + Send,
-    pixel: impl Fn(&mut T, usize, usize, &mut [f32]) + Sync + Send,
+    pixel: impl Fn(&mut T, usize, &mut Strip, usize) + Sync + Send,
 ) -> Result<Planes, RenderError> {
     let count = extent.width * extent.height;
-    let piece = (PIECE_SAMPLES / extent.samples.max(1) as usize).clamp(1, 1024);
-    let done = Mutex::new(zeros(extent.width, extent.height, planes)?);
-    (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(&scratch, |scratch, index| {
+    let piece = (PIECE_SAMPLES / extent.samples.max(1) as usize).clamp(1, PIECE_PIXELS);
+    let planes = Planes::zeros(extent.width, extent.height, images)?;
+    let scratch = || (scratch(), Strip::new(piece, images));
+    (0..count.div_ceil(piece)).into_par_iter().try_for_each_init(scratch, |(scratch, strip), index| {
         let range = index * piece..((index + 1) * piece).min(count);
-        let mut values = vec![0.0f32; range.len() * planes];
-        for (at, values) in range.clone().zip(values.chunks_exact_mut(planes)) {
-            pixel(scratch, at % extent.width, at / extent.width, values);
+        for (at, index) in range.clone().enumerate() {
+            pixel(scratch, index, strip, at);
         }
-        {
-            // A poisoned lock only means that another piece panicked; the planes are plain numbers.
-            let mut done = done.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-            for (plane, out) in done.iter_mut().enumerate() {
-                for (k, value) in out[range.clone()].iter_mut().enumerate() {
-                    *value = values[k * planes + plane];
-                }
-            }
-        }
+        planes.write(strip, range.start, range.len());
         match progress.advance(range.len()) {
-            std::ops::ControlFlow::Continue(()) => Ok(()),
-            std::ops::ControlFlow::Break(()) => Err(RenderError::Cancelled),
+            ControlFlow::Continue(()) => Ok(()),
+            ControlFlow::Break(()) => Err(RenderError::Cancelled),
         }
     })?;
-    Ok(done.into_inner().unwrap_or_else(std::sync::PoisonError::into_inner))
+    Ok(planes)
 }

@@ -4,10 +4,12 @@
 //! frames and references from it. Only what a [`Recorded`] asks for is gathered, and only what the scene can give.
 
 mod allocate;
+mod assemble;
 mod bsdf;
 mod bvh;
 mod camera;
 mod classes;
+mod columns;
 mod environment;
 mod error;
 mod film;
@@ -26,13 +28,21 @@ mod plan;
 mod planes;
 mod prepare;
 mod progress;
+mod provenance;
 mod record;
+mod recorder;
+mod recording;
 mod render;
 mod request;
 mod rounds;
 mod sampler;
+mod shot;
+mod stream;
 mod surface;
+mod table;
 mod tally;
+mod view;
+mod worker;
 
 pub use allocate::allocate;
 pub use classes::{ClassMap, OUT_OF_FOCUS, PixelClass, pixel_classes};

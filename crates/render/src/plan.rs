@@ -1,99 +1,50 @@
-//! From a request to the planes that are kept, and from the planes to a frame.
+//! From a request to the values of a pixel and to the planes that are kept.
 
-use std::collections::BTreeMap;
-
-use glam::Vec3A;
-use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Variance};
-
-use crate::path::Outcome;
-use crate::planes::Planes;
-use crate::tally::Tally;
+use crate::columns::{COLOR, Column, Columns};
+use crate::table::Joined;
+use crate::tally::{Summary, Tally};
 use crate::{Integrator, Keep, Quantity, Recorded, RenderError, RenderRequest};
 
-/// Values in a tally without features and flash: the colour.
-pub const COLOR: usize = 3;
-/// Colour, then albedo, normal, depth, shadow rays that reached a light, shadow rays traced, direct.
-pub const WITH_FEATURES: usize = COLOR + 12;
-/// Colour, then F0, S and their sum.
-pub const WITH_FLASH: usize = COLOR + 9;
-/// Colour, features, flash.
-pub const WITH_BOTH: usize = WITH_FEATURES + 9;
-/// All of that, then BRDF, motion, caustics.
-pub const WITH_ALL: usize = WITH_BOTH + 6;
-
-/// Where the value of a plane comes from; numbers count values of a tally.
-#[derive(Debug, Clone, Copy)]
-enum Source {
-    Mean(usize),
-    Variance(usize),
-    Half(usize, usize),
-    /// [`REACHED`] over [`TRACED`].
-    Visibility(Statistic),
-    /// Covariance of the means of values `i` and `i + 3`, whose sum is value `i + 6`.
-    Covariance(usize),
-    Material,
-}
-
-/// Which statistic of the visibility.
-#[derive(Debug, Clone, Copy)]
-enum Statistic {
-    Mean,
-    Variance,
-    Half(usize),
-}
-
-/// Value of a tally: 1 if a shadow ray from the first hit reached its light.
-const REACHED: usize = 10;
-/// Value of a tally: 1 if a shadow ray was traced from the first hit.
-const TRACED: usize = 11;
-
-/// What is kept.
+/// What is recorded, and what is kept of it.
 #[derive(Debug, Clone)]
 pub struct Plan {
-    kept: Vec<(Quantity, Keep)>,
-    color: Keep,
-    sources: Vec<Source>,
-    /// Whether first-hit features are gathered.
-    pub features: bool,
-    /// Whether the flash is gathered.
-    pub flash: bool,
-    /// Whether the scene or the request needs what most do not; features and flash are then gathered together.
+    /// The recorded quantities.
+    pub columns: Columns,
+    /// What is kept of the colour.
+    pub color: Keep,
+    /// Whether the scene or the request needs what most do not.
     pub extras: bool,
+    /// Planes of each image that a frame is put together from, in order.
+    pub images: Vec<usize>,
+    /// For each plane the value that it has: of those of a [`Summary`], or behind them of those derived from it.
+    sources: Vec<usize>,
+    derived: Vec<Derived>,
+}
+
+/// A value that is made of others.
+#[derive(Debug, Clone, Copy)]
+enum Derived {
+    /// Of the means at two indices, 0 where the second is 0.
+    Ratio(usize, usize),
+    /// Variance of that.
+    RatioVariance(usize, usize),
+    /// Of two means, by the indices of their variances and of that of their sum.
+    Covariance([usize; 3]),
 }
 
 /// Shadow rays that reached a light over shadow rays traced; zero if none was.
-fn fraction(mean: &[f64]) -> f64 {
-    match (mean.get(REACHED), mean.get(TRACED)) {
-        (Some(reached), Some(traced)) if *traced > 0.0 => (reached / traced).min(1.0),
-        _ => 0.0,
-    }
+fn ratio(reached: f64, traced: f64) -> f64 {
+    if traced > 0.0 { (reached / traced).min(1.0) } else { 0.0 }
 }
 
-/// Variance of the fraction R by linearisation: the residuals reached − R·traced have the sum of squares
-/// n·traced·R·(1−R), so the ratio of means has R·(1−R) / ((n−1)·traced), with `traced` the mean per sample.
-fn fraction_variance(mean: &[f64], samples: u64) -> f64 {
-    match mean.get(TRACED) {
-        Some(traced) if *traced > 0.0 && samples >= 2 => {
-            let fraction = fraction(mean);
-            fraction * (1.0 - fraction) / ((samples - 1) as f64 * traced)
-        }
-        _ => 0.0,
-    }
-}
-
-/// First value and number of values of a quantity in a tally.
-fn values(quantity: Quantity, features: bool) -> (usize, usize) {
-    match quantity {
-        Quantity::Albedo => (3, 3),
-        Quantity::Normal => (6, 3),
-        Quantity::Depth => (9, 1),
-        Quantity::Visibility => (REACHED, 1),
-        Quantity::Direct => (12, 3),
-        Quantity::Material => (0, 0),
-        Quantity::Flash => (if features { WITH_FEATURES } else { COLOR }, 3),
-        Quantity::Brdf => (WITH_BOTH, 3),
-        Quantity::Motion => (WITH_BOTH + 3, 2),
-        Quantity::Caustics => (WITH_BOTH + 5, 1),
+/// Variance of the ratio R by linearisation: the residuals reached − R·traced have the sum of squares n·traced·R·(1−R), so
+/// the ratio of means has R·(1−R) / ((n−1)·traced), with `traced` the mean per sample.
+fn ratio_variance(reached: f64, traced: f64, samples: u64) -> f64 {
+    if traced > 0.0 && samples >= 2 {
+        let ratio = ratio(reached, traced);
+        ratio * (1.0 - ratio) / ((samples - 1) as f64 * traced)
+    } else {
+        0.0
     }
 }
 
@@ -122,61 +73,73 @@ impl Plan {
                 available: names.join(", "),
             });
         }
-        let flash = kept.iter().any(|(q, _)| *q == Quantity::Flash);
-        let features = kept.iter().any(|(q, _)| *q != Quantity::Flash);
-        let rare = |q: &Quantity| matches!(q, Quantity::Brdf | Quantity::Motion | Quantity::Caustics);
         let extras = request.integrator != Integrator::PathTracing
             || scene.medium.is_some()
-            || !scene.bodies.is_empty()
-            || kept.iter().any(|(q, _)| rare(q));
-        let both = extras && !kept.is_empty();
-        let (features, flash) = (features || both, flash || both);
-        let mut plan = Self { kept, color: limit, sources: Vec::new(), features, flash, extras };
-        plan.list_sources();
+            || !scene.bodies.is_empty();
+        let columns = Columns::new(&kept);
+        let (images, sources, derived) = (Vec::new(), Vec::new(), Vec::new());
+        let mut plan = Self { columns, color: limit, extras, images, sources, derived };
+        plan.lay_out();
         Ok(plan)
     }
 
-    /// In the order in which [`Plan::frame`] takes the planes.
-    fn list_sources(&mut self) {
-        let mut sources = Vec::new();
-        let mut estimate = |first: usize, count: usize, keep: Keep| {
-            if first == REACHED && self.features {
-                sources.push(Source::Visibility(Statistic::Mean));
-                sources.extend(keep.variance.then_some(Source::Visibility(Statistic::Variance)));
-                if keep.halves {
-                    sources.extend([0, 1].map(|half| Source::Visibility(Statistic::Half(half))));
-                }
-                return;
-            }
-            let range = first..first + count;
-            sources.extend(range.clone().map(Source::Mean));
-            if keep.variance {
-                sources.extend(range.clone().map(Source::Variance));
-            }
-            if keep.halves {
-                for half in [0, 1] {
-                    sources.extend(range.clone().map(|i| Source::Half(half, i)));
-                }
-            }
-        };
-        estimate(0, 3, self.color);
-        let mut last = Vec::new();
-        for (quantity, keep) in &self.kept {
-            let (first, count) = values(*quantity, self.features);
-            match quantity {
-                Quantity::Material => last.push(Source::Material),
-                Quantity::Flash => {
-                    estimate(first, count, *keep);
-                    estimate(first + 3, count, *keep);
+    /// Lists the planes, image by image in the order in which a frame is put together.
+    fn lay_out(&mut self) {
+        let Columns { accumulated, list, .. } = self.columns.clone();
+        self.estimate(0, COLOR, self.color);
+        for Column { row, keep, first, channels } in list {
+            match row.joined {
+                Joined::Mean => self.estimate(first, channels, keep),
+                Joined::First => self.image(3 * accumulated + first..3 * accumulated + first + channels),
+                Joined::Ratio => {
+                    let pair = |part: usize| (part * accumulated + first, part * accumulated + first + 1);
+                    let ratio = |part: usize| Derived::Ratio(pair(part).0, pair(part).1);
+                    self.derive([ratio(0)]);
                     if keep.variance {
-                        last.extend((first..first + 3).map(Source::Covariance));
+                        self.derive([Derived::RatioVariance(pair(0).0, pair(0).1)]);
+                    }
+                    if keep.halves {
+                        self.derive([ratio(2)]);
+                        self.derive([ratio(3)]);
                     }
                 }
-                _ => estimate(first, count, *keep),
+                Joined::Pair => {
+                    self.estimate(first, channels, keep);
+                    self.estimate(first + channels, channels, keep);
+                    if keep.variance {
+                        let of = |k: usize, c: usize| accumulated + first + k * channels + c;
+                        self.derive(
+                            (0..channels).map(|c| Derived::Covariance([of(0, c), of(1, c), of(2, c)])),
+                        );
+                    }
+                }
             }
         }
-        sources.extend(last);
-        self.sources = sources;
+    }
+
+    /// Adds an image of these values.
+    fn image(&mut self, sources: impl IntoIterator<Item = usize>) {
+        let before = self.sources.len();
+        self.sources.extend(sources);
+        self.images.push(self.sources.len() - before);
+    }
+
+    /// Adds an image of values that are made of others.
+    fn derive(&mut self, derived: impl IntoIterator<Item = Derived>) {
+        let Columns { accumulated, all, .. } = self.columns;
+        let before = self.derived.len();
+        self.derived.extend(derived);
+        let summary = 3 * accumulated + all;
+        self.image(summary + before..summary + self.derived.len());
+    }
+
+    /// Adds what is kept of some values: four images at most.
+    fn estimate(&mut self, first: usize, channels: usize, keep: Keep) {
+        let parts = [true, keep.variance, keep.halves, keep.halves];
+        for part in (0..4).filter(|part| parts[*part]) {
+            let first = part * self.columns.accumulated + first;
+            self.image(first..first + channels);
+        }
     }
 
     /// Planes of a frame.
@@ -184,111 +147,40 @@ impl Plan {
         self.sources.len()
     }
 
-    /// Writes everything about a pixel, one value per plane.
-    pub fn write<const C: usize>(&self, tally: &mut Tally<C>, material: i32, out: &mut [f32]) {
-        let total = tally.total();
-        let mean = total.mean();
-        let variance = total.mean_variance().unwrap_or([0.0; C]);
-        let halves = [tally.half_mean(0), tally.half_mean(1)];
-        for (slot, source) in out.iter_mut().zip(&self.sources) {
-            *slot = match *source {
-                Source::Mean(i) => mean[i],
-                Source::Variance(i) => variance[i],
-                Source::Half(half, i) => halves[half][i],
+    /// A tally of what is recorded.
+    pub fn tally(&self) -> Tally {
+        Tally::new(self.columns.accumulated, self.columns.all)
+    }
+
+    /// Room for what such a tally comes to.
+    pub fn summary(&self) -> Summary {
+        Summary::new(self.columns.accumulated, self.columns.all, self.derived.len())
+    }
+
+    /// The means of a tally, and what its first sample had: a sample like those that it has seen.
+    pub fn means(&self, summary: &Summary) -> Vec<f32> {
+        let Columns { accumulated, all, .. } = self.columns;
+        let first = 4 * accumulated..3 * accumulated + all;
+        let values = summary.values[..accumulated].iter().chain(&summary.values[first]);
+        values.map(|value| *value as f32).collect()
+    }
+
+    /// Writes all values of a pixel, one per plane.
+    #[inline]
+    pub fn write<'a>(&self, tally: &Tally, summary: &mut Summary, planes: impl Iterator<Item = &'a mut f32>) {
+        tally.summarise(summary);
+        let behind = summary.values.len() - self.derived.len();
+        let (values, derived) = summary.values.split_at_mut(behind);
+        for (out, source) in derived.iter_mut().zip(&self.derived) {
+            *out = match *source {
+                Derived::Ratio(a, b) => ratio(values[a], values[b]),
+                Derived::RatioVariance(a, b) => ratio_variance(values[a], values[b], summary.samples),
                 // Polarisation: the f64 rounding of the variances is far below any covariance that matters.
-                Source::Covariance(i) => 0.5 * (variance[i + 6] - variance[i] - variance[i + 3]),
-                Source::Visibility(Statistic::Mean) => fraction(&mean),
-                Source::Visibility(Statistic::Half(half)) => fraction(&halves[half]),
-                Source::Visibility(Statistic::Variance) => fraction_variance(&mean, total.count()),
-                Source::Material => f64::from(material),
-            } as f32;
+                Derived::Covariance([a, b, sum]) => 0.5 * (values[sum] - values[a] - values[b]),
+            };
+        }
+        for (out, source) in planes.zip(&self.sources) {
+            *out = summary.values[*source] as f32;
         }
     }
-
-    /// Puts the planes together into `frame`, whose colour is replaced.
-    pub fn fill(
-        &self,
-        frame: &mut Frame,
-        planes: Planes,
-        width: usize,
-        height: usize,
-    ) -> Result<(), FrameError> {
-        let mut planes = planes.into_iter();
-        let mut image = |channels: usize| {
-            let parts: Vec<Vec<f32>> = planes.by_ref().take(channels).collect();
-            Image::from_vec(width, height, channels, parts.concat())
-        };
-        let mut estimate = |channels: usize, keep: Keep| -> Result<Estimate, FrameError> {
-            Ok(Estimate {
-                mean: image(channels)?,
-                variance: if keep.variance { Some(Variance::of_mean(image(channels)?)) } else { None },
-                halves: if keep.halves { Some([image(channels)?, image(channels)?]) } else { None },
-            })
-        };
-        frame.color = estimate(3, self.color)?;
-        let mut features: BTreeMap<FeatureId, Estimate> = BTreeMap::new();
-        let mut flash = None;
-        for (quantity, keep) in &self.kept {
-            match quantity.feature() {
-                Some(FeatureId::Material) => {}
-                Some(id) => {
-                    features.insert(id, estimate(values(*quantity, self.features).1, *keep)?);
-                }
-                None => flash = Some((estimate(3, *keep)?, estimate(3, *keep)?, keep.variance)),
-            }
-        }
-        for (quantity, _) in &self.kept {
-            match quantity {
-                Quantity::Material => {
-                    features.insert(FeatureId::Material, Estimate::from_mean(image(1)?));
-                }
-                Quantity::Flash => {
-                    if let Some((base, light, covariance)) = flash.take() {
-                        let covariance = if covariance { Some(image(3)?) } else { None };
-                        frame.flash = Some(Flash::Parts { base, light, covariance });
-                    }
-                }
-                _ => {}
-            }
-        }
-        frame.features = features;
-        frame.check()
-    }
-}
-
-/// The values of a tally in their order, and whether all are finite; if not, they are zero.
-#[inline(always)]
-pub fn tally_values<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-    o: &Outcome,
-) -> ([f32; C], bool) {
-    let mut sum = o.color;
-    let mut out = [0.0; C];
-    let mut at = 0;
-    let mut put = |v: Vec3A, count: usize| {
-        let v = v.to_array();
-        out[at..at + count].copy_from_slice(&v[..count]);
-        at += count;
-    };
-    put(o.color, 3);
-    if FEATURES {
-        sum += o.albedo + o.normal + o.direct + Vec3A::splat(o.depth);
-        put(o.albedo, 3);
-        put(o.normal, 3);
-        put(Vec3A::new(o.depth, o.reached, o.traced), 3);
-        put(o.direct, 3);
-    }
-    if FLASH {
-        let both = o.flash_base + o.eye_light;
-        sum += both;
-        put(o.flash_base, 3);
-        put(o.eye_light, 3);
-        put(both, 3);
-    }
-    if EXTRAS && FEATURES && FLASH {
-        let [x, y] = o.motion;
-        sum += o.brdf + Vec3A::new(x, y, o.caustics);
-        put(o.brdf, 3);
-        put(Vec3A::new(x, y, o.caustics), 3);
-    }
-    if sum.is_finite() { (out, true) } else { ([0.0; C], false) }
 }

@@ -4,71 +4,62 @@ use noisefloor_frame::FeatureId;
 use noisefloor_scenes::{Scattering, Scene};
 use serde::{Deserialize, Serialize};
 
-/// What can be recorded beside the colour, which always comes with variance and halves. Features belong to the first hit,
-/// or to where [`crate::FeatureHit`] says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum Quantity {
+/// Declares [`Quantity`] from one row for each.
+macro_rules! quantities {
+    ($($(#[$meaning:meta])* $id:ident $name:literal,)*) => {
+        /// What can be recorded beside the colour, which always comes with variance and halves. Features belong to the
+        /// first hit, or to where [`crate::FeatureHit`] says.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+        #[serde(rename_all = "kebab-case")]
+        #[non_exhaustive]
+        pub enum Quantity {
+            $($(#[$meaning])* $id,)*
+        }
+
+        impl Quantity {
+            /// All of them.
+            pub const ALL: [Self; [$($name),*].len()] = [$(Self::$id),*];
+
+            /// Name in study files and on the command line: that of the feature it becomes.
+            #[must_use]
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$id => $name,)*
+                }
+            }
+        }
+    };
+}
+
+quantities! {
     /// [`FeatureId::Albedo`]: diffuse reflectance, mirror reflectance, conductor reflectance at normal incidence, 1 for
     /// glass, 0 for background.
-    Albedo,
+    Albedo "albedo",
     /// [`FeatureId::Normal`]: shading normal in world space, turned to the viewer, 0 for background.
-    Normal,
+    Normal "normal",
     /// [`FeatureId::Depth`]: distance from the ray's origin to the first hit, 0 for background.
-    Depth,
+    Depth "depth",
     /// [`FeatureId::Visibility`]: shadow rays from the first hit that reached their light over shadow rays traced, 0 if
     /// none was (background, perfectly specular, light below the horizon).
-    Visibility,
+    Visibility "visibility",
     /// [`FeatureId::Direct`]: emission seen directly plus light scattered once; the colour at path depth 2.
-    Direct,
+    Direct "direct",
     /// [`FeatureId::Material`]: index of the first sample's material, −1 for background; a mean only.
-    Material,
+    Material "material",
     /// [`noisefloor_frame::Flash::Parts`] (moon2013flash, Sec. 3.1).
-    Flash,
+    Flash "flash",
     /// [`FeatureId::Brdf`]: mean over the samples of BRDF times cosine over density for the direction that was sampled, 0
     /// where none was (rousselle2013rdfc, Fig. 9); reflectance of specular surfaces, 0 for background.
-    Brdf,
+    Brdf "brdf",
     /// [`FeatureId::Motion`]: where the point that is seen will be on the next frame's image less where it is on this
     /// one's, in pixels, right and down, both at the moment when the shutter opens; 0 for background.
-    Motion,
+    Motion "motion",
     /// [`FeatureId::Caustics`]: caustic photons per area around the hit, per path of light that was followed; in 1 over
     /// squared scene units. Needs photon maps.
-    Caustics,
+    Caustics "caustics",
 }
 
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 10] = [
-        Self::Albedo,
-        Self::Normal,
-        Self::Depth,
-        Self::Visibility,
-        Self::Direct,
-        Self::Material,
-        Self::Flash,
-        Self::Brdf,
-        Self::Motion,
-        Self::Caustics,
-    ];
-
-    /// Name in study files and on the command line.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Albedo => "albedo",
-            Self::Normal => "normal",
-            Self::Depth => "depth",
-            Self::Visibility => "visibility",
-            Self::Direct => "direct",
-            Self::Material => "material",
-            Self::Flash => "flash",
-            Self::Brdf => "brdf",
-            Self::Motion => "motion",
-            Self::Caustics => "caustics",
-        }
-    }
-
     /// Inverse of [`Quantity::name`].
     #[must_use]
     pub fn from_name(name: &str) -> Option<Self> {
@@ -78,18 +69,7 @@ impl Quantity {
     /// The feature it becomes; `None` for the flash, which is no feature.
     #[must_use]
     pub fn feature(self) -> Option<FeatureId> {
-        Some(match self {
-            Self::Albedo => FeatureId::Albedo,
-            Self::Normal => FeatureId::Normal,
-            Self::Depth => FeatureId::Depth,
-            Self::Visibility => FeatureId::Visibility,
-            Self::Direct => FeatureId::Direct,
-            Self::Material => FeatureId::Material,
-            Self::Brdf => FeatureId::Brdf,
-            Self::Motion => FeatureId::Motion,
-            Self::Caustics => FeatureId::Caustics,
-            Self::Flash => return None,
-        })
+        FeatureId::KNOWN.into_iter().find(|id| id.name() == self.name())
     }
 }
 

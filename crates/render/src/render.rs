@@ -1,24 +1,20 @@
-use std::sync::atomic::{AtomicU64, Ordering};
+//! One image at once.
+
 use std::time::Instant;
 
-use noisefloor_frame::{Counts, Estimate, Frame, Image, Provenance, Reference, Samples, Sampling};
+use noisefloor_frame::{Counts, Estimate, Frame, Image, Reference, Samples, Sampling};
 
-use crate::bvh::Ray;
-use crate::camera::Eye;
+use crate::assemble::fill;
+use crate::columns::COLOR;
 use crate::film::{Extent, develop};
-use crate::intersect::Traversal;
-use crate::limits::{DEEPEST, LONGEST_SEQUENCE};
-use crate::path::{View, trace};
-use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH, tally_values};
+use crate::limits::LONGEST_SEQUENCE;
+use crate::plan::Plan;
 use crate::planes::Planes;
-use crate::request::REVISION;
-use crate::sampler::{Independent, OwenSobol, Sampler, Sequence, SobolTables, pixel_key};
-use crate::tally::Tally;
-use crate::{FeatureHit, Integrator, Keep, Progress, RenderError, RenderRequest};
-
-/// Sequences of a reference are numbered from here on, those of a frame from 0: equal seeds do not make a frame a part
-/// of its own reference.
-const REFERENCE_SEQUENCES: u32 = 1 << 16;
+use crate::provenance::provenance;
+use crate::shot::{Shot, Totals};
+use crate::tally::{Summary, Tally};
+use crate::worker::{Worker, worker};
+use crate::{Keep, Progress, RenderError, RenderRequest};
 
 /// Renders a frame on the threads of the current rayon pool. The result is the same, bit for bit, for any number of them.
 ///
@@ -37,16 +33,15 @@ pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Fr
     let start = Instant::now();
     let counts = Totals::default();
     let shot = Shot::new(request, &plan, &counts);
-    let planes = shot.dispatch(plan.planes(), progress)?;
+    let planes = frame_planes(&shot, progress)?;
     counts.check(request)?;
     let even = |end: u32| end.div_ceil(2);
     let end = request.sample_start + request.spp; // checked above
     let samples =
         Samples::uniform(request.spp).with_half_a(Counts::Uniform(even(end) - even(request.sample_start)));
     let mut frame = blank(request, samples, request.sampling);
-    plan.fill(&mut frame, planes, request.width, request.height)?;
-    frame.provenance = provenance(request, start.elapsed().as_secs_f64(), &counts);
-    frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
+    fill(&plan, &mut frame, planes.into_images())?;
+    frame.provenance = provenance(request, request.sampling, start.elapsed().as_secs_f64(), &counts);
     Ok(frame)
 }
 
@@ -78,292 +73,81 @@ pub fn render_reference(
         return wrong("sample_start", request.sample_start, "0 for a reference".into());
     }
     let plan = Plan::new(request, Keep::MEAN)?;
-    request.check_memory(3 * parts as usize + plan.planes())?;
+    request.check_memory(COLOR * parts as usize + plan.planes())?;
     let start = Instant::now();
     let counts = Totals::default();
-    let shot = Shot { parts: Some(parts), ..Shot::new(request, &plan, &counts) };
-    let mut planes = shot.dispatch(3 * parts as usize + plan.planes(), progress)?;
+    let shot = Shot::new(request, &plan, &counts);
+    let mut planes = reference_planes(&shot, parts, progress)?.into_images();
     counts.check(request)?;
-    let rest = planes.split_off(3 * parts as usize);
     let images = planes
-        .chunks_exact(3)
-        .map(|rgb| Image::from_vec(request.width, request.height, 3, rgb.concat()))
+        .by_ref()
+        .take(parts as usize)
+        .map(|part| Image::from_vec(request.width, request.height, COLOR, part))
         .collect::<Result<Vec<_>, _>>()?;
     let mut reference = Reference::from_parts(images, request.spp / parts, Sampling::LowDiscrepancy)?;
     let mut recorded = blank(request, Samples::uniform(request.spp), Sampling::LowDiscrepancy);
-    plan.fill(&mut recorded, rest, request.width, request.height)?;
+    fill(&plan, &mut recorded, planes)?;
     reference.frame.features = recorded.features;
     reference.frame.flash = recorded.flash;
-    reference.frame.provenance = provenance(request, start.elapsed().as_secs_f64(), &counts);
-    reference.frame.provenance.sampler = Some(crate::sampler::name(Sampling::LowDiscrepancy).into());
+    reference.frame.provenance =
+        provenance(request, Sampling::LowDiscrepancy, start.elapsed().as_secs_f64(), &counts);
     reference.frame.provenance.extra.insert("parts".into(), parts.to_string());
     Ok(reference)
 }
-
-/// Random numbers of the moment of a sample: beyond those of the longest path.
-const TIME_GROUP: u32 = 2 * DEEPEST + 1;
 
 /// A frame with a black colour, to be filled.
 pub(crate) fn blank(request: &RenderRequest<'_>, samples: Samples, sampling: Sampling) -> Frame {
     Frame::from_color(Estimate::from_mean(Image::new(request.width, request.height, 3)), samples, sampling)
 }
 
-pub(crate) fn provenance(request: &RenderRequest<'_>, seconds: f64, counts: &Totals) -> Provenance {
-    let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
-    let mut extra = std::collections::BTreeMap::new();
-    let [non_finite, rays] = counts.read();
-    extra.insert("rays".into(), rays.to_string());
-    if non_finite > 0 {
-        extra.insert("non_finite_samples".into(), non_finite.to_string());
-    }
-    if request.sample_start > 0 {
-        extra.insert("sample_start".into(), request.sample_start.to_string());
-    }
-    if request.feature_hit != FeatureHit::First {
-        extra.insert("feature_hit".into(), request.feature_hit.name().into());
-    }
-    if let Some(maps) = request.photons {
-        let s = maps.settings();
-        extra.insert("photon_map_seed".into(), maps.seed().to_string());
-        extra.insert("photon_paths".into(), format!("{} global, {} caustic", s.paths, s.caustic_paths));
-        extra.insert(
-            "photon_radii".into(),
-            format!("{} global, {} px caustic, at most {}", s.radius, s.caustic_pixels, s.caustic_radius),
-        );
-    }
-    if request.scene.shutter > 0.0 && !request.scene.bodies.is_empty() {
-        extra.insert("shutter".into(), request.scene.shutter.to_string());
-    }
-    let integrator = match request.integrator {
-        Integrator::PathTracing => "path",
-        Integrator::PhotonMapping => "photon-mapping",
-    };
-    Provenance {
-        scene: Some(request.scene.id().into()),
-        renderer: Some(format!("noisefloor {} (revision {REVISION})", env!("CARGO_PKG_VERSION"))),
-        integrator: Some(format!("{integrator} depth={}", request.depth)),
-        light: Some(request.integrator),
-        photon_maps: None,
-        rounds: None,
-        sampler: None,
-        seed: Some(request.seed),
-        filter: Some(request.filter),
-        camera: Some(eye.provenance(&request.scene.camera)),
-        render_seconds: Some(seconds),
-        render_threads: u32::try_from(rayon::current_num_threads()).ok(),
-        extra,
-    }
-}
-
-/// Everything that is common to the pixels of one rendering.
-pub(crate) struct Shot<'a> {
-    request: &'a RenderRequest<'a>,
-    plan: &'a Plan,
-    eye: Eye,
-    /// The camera one frame later, if anything moves.
-    next: Option<Eye>,
-    parts: Option<u32>,
-    sobol: SobolTables,
-    counts: &'a Totals,
-}
-
-/// What is counted over a rendering, on all threads.
-#[derive(Debug, Default)]
-pub(crate) struct Totals {
-    /// Samples that were not finite and count as black.
-    non_finite: AtomicU64,
-    /// Rays that were followed.
-    rays: AtomicU64,
-}
-
-impl Totals {
-    /// Samples that were not finite, and rays.
-    pub(crate) fn read(&self) -> [u64; 2] {
-        [&self.non_finite, &self.rays].map(|count| count.load(Ordering::Relaxed))
-    }
-
-    /// Refuses an image of which more than half is made up: samples that are not finite count as black.
-    fn check(&self, request: &RenderRequest<'_>) -> Result<(), RenderError> {
-        let [non_finite, _] = self.read();
-        let samples = (request.width * request.height) as u64 * u64::from(request.spp);
-        if non_finite <= samples / 2 {
-            return Ok(());
-        }
-        Err(RenderError::NonFinite { scene: request.scene.id().into(), non_finite, samples })
-    }
-
-    /// Adds what another rendering counted.
-    pub(crate) fn add(&self, other: &Self) {
-        let [non_finite, rays] = other.read();
-        self.non_finite.fetch_add(non_finite, Ordering::Relaxed);
-        self.rays.fetch_add(rays, Ordering::Relaxed);
-    }
-}
-
 /// What a thread keeps from pixel to pixel.
-struct Scratch<const C: usize> {
-    traversal: Traversal,
-    tally: Tally<C>,
+struct Scratch<'a> {
+    worker: Box<dyn Worker + 'a>,
+    tally: Tally,
+    summary: Summary,
 }
 
-impl<'a> Shot<'a> {
-    pub(crate) fn new(request: &'a RenderRequest<'a>, plan: &'a Plan, counts: &'a Totals) -> Self {
-        let eye = Eye::new(&request.scene.camera, request.width, request.height, request.filter);
-        let next = request.scene.camera_move.map(|step| {
-            Eye::new(&step.apply(&request.scene.camera, 1.0), request.width, request.height, request.filter)
-        });
-        Self { request, plan, eye, next, parts: None, sobol: SobolTables::new(), counts }
+impl<'a> Scratch<'a> {
+    fn new(shot: &'a Shot<'a>, sampling: Sampling) -> Self {
+        Self { worker: worker(shot, sampling), tally: shot.plan.tally(), summary: shot.plan.summary() }
     }
+}
 
-    /// Picks the code for what is recorded, so that what is not recorded costs nothing.
-    fn dispatch(&self, planes: usize, progress: &dyn Progress) -> Result<Planes, RenderError> {
-        match (self.plan.extras, self.plan.features, self.plan.flash) {
-            (true, false, _) => self.run::<false, false, true, COLOR>(planes, progress),
-            (true, true, _) => self.run::<true, true, true, WITH_ALL>(planes, progress),
-            (false, false, false) => self.run::<false, false, false, COLOR>(planes, progress),
-            (false, true, false) => self.run::<true, false, false, WITH_FEATURES>(planes, progress),
-            (false, false, true) => self.run::<false, true, false, WITH_FLASH>(planes, progress),
-            (false, true, true) => self.run::<true, true, false, WITH_BOTH>(planes, progress),
-        }
-    }
+fn frame_planes(shot: &Shot<'_>, progress: &dyn Progress) -> Result<Planes, RenderError> {
+    let Shot { request, plan, .. } = shot;
+    let range = request.sample_start..request.sample_start + request.spp;
+    let extent = Extent { width: request.width, height: request.height, samples: request.spp };
+    let scratch = || Scratch::new(shot, request.sampling);
+    develop(extent, &plan.images, progress, scratch, |scratch, pixel, strip, at| {
+        let Scratch { worker, tally, summary } = scratch;
+        tally.clear();
+        worker.add(tally, pixel, None, range.clone());
+        plan.write(tally, summary, strip.pixel(at));
+    })
+}
 
-    fn run<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-        &self,
-        planes: usize,
-        progress: &dyn Progress,
-    ) -> Result<Planes, RenderError> {
-        let request = self.request;
-        let extent = Extent { width: request.width, height: request.height, samples: request.spp };
-        let scratch = || Scratch::<C> { traversal: request.scene.traversal(), tally: Tally::new() };
-        develop(extent, planes, progress, scratch, |scratch, x, y, out| match self.parts {
-            Some(parts) => {
-                let key = pixel_key(request.seed, (y * request.width + x) as u64);
-                self.reference_pixel::<FEATURES, FLASH, EXTRAS, C>(scratch, x, y, key, parts, out)
+/// Colour means of the parts, then the means over all parts.
+fn reference_planes(shot: &Shot<'_>, parts: u32, progress: &dyn Progress) -> Result<Planes, RenderError> {
+    let Shot { request, plan, .. } = shot;
+    let images: Vec<usize> = std::iter::repeat_n(COLOR, parts as usize).chain(plan.images.clone()).collect();
+    let extent = Extent { width: request.width, height: request.height, samples: request.spp };
+    let scratch = || (Scratch::new(shot, Sampling::LowDiscrepancy), plan.tally());
+    develop(extent, &images, progress, scratch, |(scratch, all), pixel, strip, at| {
+        let Scratch { worker, tally, summary } = scratch;
+        let mut out = strip.pixel(at);
+        all.clear();
+        for part in 0..parts {
+            tally.clear();
+            worker.add(tally, pixel, Some(part), 0..request.spp / parts);
+            tally.summarise(summary);
+            let means = plan.means(summary);
+            // In this order: the other one would take a plane too many.
+            for (mean, out) in means[..COLOR].iter().zip(&mut out) {
+                *out = *mean;
             }
-            None => {
-                let Scratch { traversal, tally } = scratch;
-                tally.clear();
-                let material =
-                    self.samples::<FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), self.range());
-                self.plan.write(tally, material, out);
-            }
-        })
-    }
-
-    /// Adds a range of a pixel's samples to a tally; returns the material of the first one.
-    pub(crate) fn samples<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-        &self,
-        traversal: &mut Traversal,
-        tally: &mut Tally<C>,
-        (x, y): (usize, usize),
-        range: std::ops::Range<u32>,
-    ) -> i32 {
-        let key = pixel_key(self.request.seed, (y * self.request.width + x) as u64);
-        match self.request.sampling {
-            Sampling::Independent => {
-                let sampler = |k| Independent::new(key, k);
-                self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), range, sampler)
-            }
-            Sampling::LowDiscrepancy => {
-                let halves = [0, 1].map(|half| Sequence::new(key, half));
-                let sampler = |k: u32| OwenSobol::new(&self.sobol, &halves[(k & 1) as usize], k >> 1);
-                self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), range, sampler)
-            }
-        }
-    }
-
-    fn range(&self) -> std::ops::Range<u32> {
-        self.request.sample_start..self.request.sample_start + self.request.spp
-    }
-
-    /// Fills the tally with the samples of a pixel; returns the material of the first one.
-    fn pixel<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-        &self,
-        scratch: &mut Scratch<C>,
-        x: usize,
-        y: usize,
-        samples: std::ops::Range<u32>,
-        sampler: impl Fn(u32) -> S,
-    ) -> i32 {
-        scratch.tally.clear();
-        let Scratch { traversal, tally } = scratch;
-        self.extend::<_, FEATURES, FLASH, EXTRAS, C>(traversal, tally, (x, y), samples, sampler)
-    }
-
-    /// Adds samples of a pixel to a tally; returns the material of the first one.
-    #[inline(always)]
-    fn extend<S: Sampler, const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-        &self,
-        traversal: &mut Traversal,
-        tally: &mut Tally<C>,
-        (x, y): (usize, usize),
-        samples: std::ops::Range<u32>,
-        sampler: impl Fn(u32) -> S,
-    ) -> i32 {
-        let scene = self.request.scene;
-        let view = View {
-            eye: self.eye.position(),
-            depth: self.request.depth,
-            follow: self.request.feature_hit == FeatureHit::ThroughSpecular,
-            photons: self.request.photons,
-            gather: self.request.integrator == Integrator::PhotonMapping,
-            pixel: self.eye.pixel(),
-            frames: self.next.map(|next| [self.eye, next]),
-        };
-        let first = samples.start;
-        let mut material = -1;
-        for k in samples {
-            let sampler = sampler(k);
-            let (origin, direction) = self.eye.ray(x, y, sampler.group(0));
-            let ray = Ray { origin, direction };
-            if EXTRAS && !scene.bodies.is_empty() {
-                scene.set_time(traversal, sampler.group(TIME_GROUP)[0]);
-            }
-            let outcome = trace::<S, FEATURES, FLASH, EXTRAS>(scene, ray, &view, sampler, traversal);
-            let (values, finite) = tally_values::<FEATURES, FLASH, EXTRAS, C>(&outcome);
-            if !finite {
-                self.counts.non_finite.fetch_add(1, Ordering::Relaxed);
-            }
-            tally.push(k, &values);
-            if k == first {
-                material = outcome.material;
-            }
-        }
-        self.counts.rays.fetch_add(traversal.take_rays(), Ordering::Relaxed);
-        material
-    }
-
-    /// Colour means of the parts, then the means over all parts.
-    fn reference_pixel<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-        &self,
-        scratch: &mut Scratch<C>,
-        x: usize,
-        y: usize,
-        key: u64,
-        parts: u32,
-        out: &mut [f32],
-    ) {
-        let (colors, rest) = out.split_at_mut(3 * parts as usize);
-        let mut all = Tally::new();
-        let mut material = -1;
-        for (part, color) in colors.chunks_exact_mut(3).enumerate() {
-            let sequence = Sequence::new(key, REFERENCE_SEQUENCES + part as u32);
-            let sampler = |k| OwenSobol::new(&self.sobol, &sequence, k);
-            let first = self.pixel::<_, FEATURES, FLASH, EXTRAS, C>(
-                scratch,
-                x,
-                y,
-                0..self.request.spp / parts,
-                sampler,
-            );
-            if part == 0 {
-                material = first;
-            }
-            let mean = scratch.tally.total().mean().map(|v| v as f32);
-            color.copy_from_slice(&mean[..3]);
             // Parts have equal sample counts: the mean over all samples is the mean of their means.
-            all.push(part as u32, &mean);
+            all.extend(part, &means);
         }
-        self.plan.write(&mut all, material, rest);
-    }
+        plan.write(all, summary, out);
+    })
 }

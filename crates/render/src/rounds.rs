@@ -6,15 +6,16 @@ use noisefloor_frame::{Counts, Frame, Image, Samples, Sampling};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefMutIterator, ParallelIterator};
 use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
+use crate::assemble::fill;
 use crate::limits::LONGEST_SEQUENCE;
-use crate::plan::{COLOR, Plan, WITH_ALL, WITH_BOTH, WITH_FEATURES, WITH_FLASH};
-use crate::planes::Planes;
-use crate::render::{Shot, Totals, blank, provenance};
+use crate::plan::Plan;
+use crate::planes::{BYTES_PER_VALUE, Planes, Strip};
+use crate::provenance::provenance;
+use crate::render::blank;
+use crate::shot::{Shot, Totals};
 use crate::tally::Tally;
+use crate::worker::worker;
 use crate::{Keep, Progress, RenderError, RenderRequest};
-
-/// What a pixel takes beside the frame that it ends in, in units of what the frame takes per value: 1952 bytes.
-const PIXEL_VALUES: usize = 244;
 
 /// Pixels in one piece of work.
 const PIECE: usize = 64;
@@ -26,36 +27,23 @@ const PIECE: usize = 64;
 /// number of samples carry a map of it. A density that was made from the samples themselves biases their mean; this
 /// type does not know where its numbers come from.
 ///
-/// A pixel takes 208 bytes for the colour alone and 1216 with features and flash (1504 with all there is), and 56 to
-/// 488 more for every doubling of its samples beyond 16.
+/// A pixel takes 232 bytes for the colour alone and 1116 with features and flash (1468 with all there is), and 72 to
+/// 576 more for every doubling of its samples beyond 16.
 #[derive(Debug)]
 pub struct Rounds<'a> {
     request: RenderRequest<'a>,
     plan: Plan,
-    pixels: Pixels,
+    pixels: Vec<Pixel>,
     rounds: u32,
     seconds: f64,
     counts: Totals,
 }
 
-/// One pixel: its statistics, the material of its first sample, and the index after its last.
+/// One pixel: its statistics, and the index after its last sample.
 #[derive(Debug, Clone)]
-struct Pixel<const C: usize> {
-    tally: Tally<C>,
-    material: i32,
+struct Pixel {
+    tally: Tally,
     end: u32,
-}
-
-/// All pixels, by what is recorded.
-#[derive(Debug)]
-enum Pixels {
-    Color(Vec<Pixel<COLOR>>),
-    Features(Vec<Pixel<WITH_FEATURES>>),
-    Flash(Vec<Pixel<WITH_FLASH>>),
-    Both(Vec<Pixel<WITH_BOTH>>),
-    /// The colour alone, of a scene that needs more than most.
-    ExtraColor(Vec<Pixel<COLOR>>),
-    All(Vec<Pixel<WITH_ALL>>),
 }
 
 impl<'a> Rounds<'a> {
@@ -69,17 +57,11 @@ impl<'a> Rounds<'a> {
             return Err(wrong("spp", request.spp.to_string(), "at least 2 in the first round".into()));
         }
         let plan = Plan::new(request, Keep::ALL)?;
-        request.check_memory(plan.planes() + PIXEL_VALUES)?;
+        // Beside the frame that they end in, in units of what it takes per value.
+        let pixel = (size_of::<Pixel>() + plan.tally().bytes()).div_ceil(BYTES_PER_VALUE as usize);
+        request.check_memory(plan.planes() + pixel)?;
         let count = request.width * request.height;
-        let first = request.sample_start;
-        let pixels = match (plan.features, plan.flash) {
-            _ if plan.extras && plan.features => Pixels::All(empty(count, first)),
-            _ if plan.extras => Pixels::ExtraColor(empty(count, first)),
-            (false, false) => Pixels::Color(empty(count, first)),
-            (true, false) => Pixels::Features(empty(count, first)),
-            (false, true) => Pixels::Flash(empty(count, first)),
-            (true, true) => Pixels::Both(empty(count, first)),
-        };
+        let pixels = vec![Pixel { tally: plan.tally(), end: request.sample_start }; count];
         let mut rounds = Self {
             request: request.clone(),
             plan,
@@ -116,24 +98,7 @@ impl<'a> Rounds<'a> {
         let start = Instant::now();
         let counts = Totals::default();
         let shot = Shot::new(&self.request, &self.plan, &counts);
-        let done = match &mut self.pixels {
-            Pixels::Color(pixels) => {
-                grow::<false, false, false, _>(pixels, &shot, &self.request, extra, progress)
-            }
-            Pixels::Features(pixels) => {
-                grow::<true, false, false, _>(pixels, &shot, &self.request, extra, progress)
-            }
-            Pixels::Flash(pixels) => {
-                grow::<false, true, false, _>(pixels, &shot, &self.request, extra, progress)
-            }
-            Pixels::Both(pixels) => {
-                grow::<true, true, false, _>(pixels, &shot, &self.request, extra, progress)
-            }
-            Pixels::ExtraColor(pixels) => {
-                grow::<false, false, true, _>(pixels, &shot, &self.request, extra, progress)
-            }
-            Pixels::All(pixels) => grow::<true, true, true, _>(pixels, &shot, &self.request, extra, progress),
-        };
+        let done = grow(&mut self.pixels, &shot, extra, progress);
         self.rounds += 1;
         self.seconds += start.elapsed().as_secs_f64();
         self.counts.add(&counts);
@@ -167,15 +132,10 @@ impl<'a> Rounds<'a> {
             let expected = format!("{end}, where pixel {pixel} ends");
             return Err(wrong("sample_start", start.to_string(), expected));
         }
-        match (&mut self.pixels, &next.pixels) {
-            (Pixels::Color(a), Pixels::Color(b)) => join(a, b),
-            (Pixels::Features(a), Pixels::Features(b)) => join(a, b),
-            (Pixels::Flash(a), Pixels::Flash(b)) => join(a, b),
-            (Pixels::Both(a), Pixels::Both(b)) => join(a, b),
-            (Pixels::ExtraColor(a), Pixels::ExtraColor(b)) => join(a, b),
-            (Pixels::All(a), Pixels::All(b)) => join(a, b),
-            _ => unreachable!("equal records make equal plans"),
-        }
+        self.pixels.par_iter_mut().zip(&next.pixels).for_each(|(pixel, next)| {
+            pixel.tally.append(&next.tally);
+            pixel.end = next.end;
+        });
         self.rounds += next.rounds;
         self.seconds += next.seconds;
         self.counts.add(&next.counts);
@@ -203,18 +163,17 @@ impl<'a> Rounds<'a> {
                 Samples::per_pixel(counts).with_half_a(Counts::PerPixel(half_a))
             }
         };
-        let planes = match &self.pixels {
-            Pixels::Color(pixels) => planes(pixels, &self.plan),
-            Pixels::Features(pixels) => planes(pixels, &self.plan),
-            Pixels::Flash(pixels) => planes(pixels, &self.plan),
-            Pixels::Both(pixels) => planes(pixels, &self.plan),
-            Pixels::ExtraColor(pixels) => planes(pixels, &self.plan),
-            Pixels::All(pixels) => planes(pixels, &self.plan),
-        };
+        let planes = Planes::zeros(request.width, request.height, &self.plan.images)?;
+        let (mut strip, mut summary) = (Strip::new(PIECE, &self.plan.images), self.plan.summary());
+        for (piece, pixels) in self.pixels.chunks(PIECE).enumerate() {
+            for (at, pixel) in pixels.iter().enumerate() {
+                self.plan.write(&pixel.tally, &mut summary, strip.pixel(at));
+            }
+            planes.write(&strip, piece * PIECE, pixels.len());
+        }
         let mut frame = blank(request, samples, request.sampling);
-        self.plan.fill(&mut frame, planes, request.width, request.height)?;
-        frame.provenance = provenance(request, self.seconds, &self.counts);
-        frame.provenance.sampler = Some(crate::sampler::name(request.sampling).into());
+        fill(&self.plan, &mut frame, planes.into_images())?;
+        frame.provenance = provenance(request, request.sampling, self.seconds, &self.counts);
         frame.provenance.extra.insert("rounds".into(), self.rounds.to_string());
         Ok(frame)
     }
@@ -230,17 +189,7 @@ impl<'a> Rounds<'a> {
 
     /// The index after the last sample of every pixel.
     fn ends(&self) -> Vec<u32> {
-        fn of<const C: usize>(pixels: &[Pixel<C>]) -> Vec<u32> {
-            pixels.iter().map(|p| p.end).collect()
-        }
-        match &self.pixels {
-            Pixels::Color(pixels) => of(pixels),
-            Pixels::Features(pixels) => of(pixels),
-            Pixels::Flash(pixels) => of(pixels),
-            Pixels::Both(pixels) => of(pixels),
-            Pixels::ExtraColor(pixels) => of(pixels),
-            Pixels::All(pixels) => of(pixels),
-        }
+        self.pixels.iter().map(|pixel| pixel.end).collect()
     }
 }
 
@@ -248,33 +197,21 @@ fn wrong(parameter: &'static str, value: String, expected: String) -> RenderErro
     RenderError::InvalidRequest { parameter, value, expected }
 }
 
-fn empty<const C: usize>(count: usize, first: u32) -> Vec<Pixel<C>> {
-    vec![Pixel { tally: Tally::new(), material: -1, end: first }; count]
-}
-
-fn grow<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: usize>(
-    pixels: &mut [Pixel<C>],
+fn grow(
+    pixels: &mut [Pixel],
     shot: &Shot<'_>,
-    request: &RenderRequest<'_>,
     extra: &[u32],
     progress: &dyn Progress,
 ) -> Result<(), RenderError> {
-    let stack = || request.scene.traversal();
+    let worker = || worker(shot, shot.request.sampling);
     let pieces = pixels.par_chunks_mut(PIECE).zip(extra.par_chunks(PIECE)).enumerate();
-    pieces.try_for_each_init(stack, |stack, (piece, (pixels, extra))| {
+    pieces.try_for_each_init(worker, |worker, (piece, (pixels, extra))| {
         for (k, (pixel, extra)) in pixels.iter_mut().zip(extra).enumerate() {
             if *extra == 0 {
                 continue;
             }
-            let at = piece * PIECE + k;
-            let at = (at % request.width, at / request.width);
             let range = pixel.end..pixel.end + extra; // checked before any work
-            let first = pixel.end == request.sample_start;
-            let material =
-                shot.samples::<FEATURES, FLASH, EXTRAS, C>(stack, &mut pixel.tally, at, range.clone());
-            if first {
-                pixel.material = material;
-            }
+            worker.add(&mut pixel.tally, piece * PIECE + k, None, range.clone());
             pixel.end = range.end;
         }
         match progress.advance(pixels.len()) {
@@ -282,24 +219,4 @@ fn grow<const FEATURES: bool, const FLASH: bool, const EXTRAS: bool, const C: us
             std::ops::ControlFlow::Break(()) => Err(RenderError::Cancelled),
         }
     })
-}
-
-fn join<const C: usize>(pixels: &mut [Pixel<C>], next: &[Pixel<C>]) {
-    pixels.par_iter_mut().zip(next).for_each(|(pixel, next)| {
-        pixel.tally.append(&next.tally);
-        pixel.end = next.end;
-    });
-}
-
-fn planes<const C: usize>(pixels: &[Pixel<C>], plan: &Plan) -> Planes {
-    let mut planes = vec![vec![0.0f32; pixels.len()]; plan.planes()];
-    let mut values = vec![0.0f32; plan.planes()];
-    for (at, pixel) in pixels.iter().enumerate() {
-        // Reading the total ends the open block; the copy keeps this pixel's for the next round.
-        plan.write(&mut pixel.tally.clone(), pixel.material, &mut values);
-        for (plane, value) in planes.iter_mut().zip(&values) {
-            plane[at] = *value;
-        }
-    }
-    planes
 }

@@ -82,12 +82,16 @@ impl Triangles {
     pub fn closest(&self, ray: &Lanes, best: &mut Hit) {
         let crossing = self.cross(ray, best.t);
         let mut mask = crossing.mask;
+        if mask == 0 {
+            return;
+        }
+        // As arrays: a lane that is chosen by number would be a jump.
+        let [t, u, v] = [crossing.t, crossing.u, crossing.v].map(|lanes| lanes.to_array());
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 3;
             mask &= mask - 1;
-            let t = crossing.t[lane];
-            if t < best.t {
-                *best = Hit { t, primitive: self.primitives[lane], u: crossing.u[lane], v: crossing.v[lane] };
+            if t[lane] < best.t {
+                *best = Hit { t: t[lane], primitive: self.primitives[lane], u: u[lane], v: v[lane] };
             }
         }
     }
@@ -141,6 +145,10 @@ impl Spheres {
     #[inline(always)]
     pub fn closest(&self, ray: &Lanes, best: &mut Hit) {
         let (near, far, mut mask) = self.roots(ray);
+        if mask == 0 {
+            return;
+        }
+        let (near, far) = (near.to_array(), far.to_array());
         while mask != 0 {
             let lane = mask.trailing_zeros() as usize & 3;
             mask &= mask - 1;

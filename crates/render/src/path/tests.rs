@@ -1,10 +1,17 @@
-use super::*;
-use crate::sampler::Independent;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use noisefloor_frame::Moments;
 use noisefloor_scenes::{
     CameraSpec, Color, EnvironmentMap, Material, Mesh, Scattering, Scene, Sky, Sphere, Sun,
 };
+
+use super::steps::{emission, reach};
+use crate::Prepared;
+use crate::bsdf::Lobe;
+use crate::bvh::Ray;
+use crate::interaction::Interaction;
+use crate::intersect::Traversal;
+use crate::math::power_heuristic;
+use crate::sampler::{Independent, Sampler};
 
 /// Every kind of light over a point at the origin with normal +Y.
 fn scene(kind: &str) -> Prepared {
