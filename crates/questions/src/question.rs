@@ -9,8 +9,7 @@ use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
 
-/// A question to the data: its folder as a row of [`QUESTIONS`](crate::QUESTIONS). What it does not do is as
-/// [`new`](Self::new) has it.
+/// A question to the data: its folder as a row of [`QUESTIONS`](crate::QUESTIONS). What a folder leaves out does nothing.
 #[derive(Clone, Copy, Debug)]
 pub struct Question {
     /// Anchor in the page, and the name of its answers on disk.
