@@ -313,6 +313,7 @@ fn parameters_out_of_range_are_named() {
         VirtualFlash::new(params).unwrap_err()
     };
     assert_eq!(bad(|p| p.steps = 3).parameter, "steps");
+    assert_eq!(bad(|p| p.neighbors = 6).parameter, "neighbors");
     assert_eq!(bad(|p| p.first_window_radius_px = 33).parameter, "first_window_radius_px");
     assert_eq!(bad(|p| p.first_confidence = 1.0).parameter, "first_confidence");
     assert_eq!(bad(|p| p.second_confidence = 99.0).parameter, "second_confidence");
