@@ -30,9 +30,11 @@ pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
     card.needs = needs(params);
     card.alternatives = alternatives(params);
     card.neighbors = params.neighbors;
-    if params.neighbors > 0 {
-        card.cost = Cost::TenSeconds;
-    }
+    card.cost = match params.neighbors {
+        0 => Cost::Second,
+        1..=2 => Cost::TenSeconds,
+        _ => Cost::Minutes,
+    };
     card.claims = claims(params, steps);
     card.varies_with =
         by_luminance(params).map(|why| (Invariance::ChannelOrder, why.into())).into_iter().collect();

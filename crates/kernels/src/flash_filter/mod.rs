@@ -31,7 +31,7 @@
 //!   for both pixels, and G is scaled to Σ_j G(j) = 1 over them.
 //!
 //! Nothing follows motion: a pixel is compared with what is in its place and around it in the other frames. The time taken is that of
-//! one frame for each frame of the window, times two to three where patches are cubes.
+//! one frame for each frame of the window, times three to four where patches are cubes of 5 frames.
 
 mod diagnostics;
 mod error;

@@ -1,7 +1,5 @@
 //! Weights and what they add to the sums (moon2013flash, Eq. 1 over the set of Eq. 2).
 
-#![expect(clippy::needless_range_loop, reason = "fixed counts, unrolled; iterators may end up as calls")]
-
 use super::tile::{JOINT, Offsets, SEPARATE, SINGLE, TileView};
 use crate::engine::{Plane, Simd, Weighted, across};
 use crate::flash_filter::layout::{BLOCK, Layout};
