@@ -60,6 +60,8 @@ impl Frame {
             source: source.each_ref().map(Vec::as_slice),
             membership: if tested { Membership::Joint(half_width) } else { Membership::Off },
             guide: Some(Guide { planes: self.guide.each_ref().map(Vec::as_slice), sigma_r2: &self.sigma_r2 }),
+            before: &[],
+            after: &[],
         }
     }
 

@@ -1,7 +1,7 @@
 //! What the method needs and what may be claimed for its settings.
 
 use noisefloor_denoiser::{
-    Alternative, Citation, Claim, Claims, Entry, Invariance, MethodCard, Need, Published,
+    Alternative, Citation, Claim, Claims, Cost, Entry, Invariance, MethodCard, Need, Published,
 };
 
 use crate::params::Step;
@@ -29,6 +29,12 @@ pub(crate) fn card(id: &str, params: &Params, steps: &[Step]) -> MethodCard {
     let mut card = MethodCard::new(id, name(params), CITATION);
     card.needs = needs(params);
     card.alternatives = alternatives(params);
+    card.neighbors = params.neighbors;
+    card.cost = match params.neighbors {
+        0 => Cost::Second,
+        1..=2 => Cost::TenSeconds,
+        _ => Cost::Minutes,
+    };
     card.claims = claims(params, steps);
     card.varies_with =
         by_luminance(params).map(|why| (Invariance::ChannelOrder, why.into())).into_iter().collect();
@@ -100,6 +106,8 @@ fn alternatives(params: &Params) -> Vec<Alternative> {
 ///
 /// In two steps (Sec. 3.5) with at most the input's standard error the triangle inequality gives |D₂−x̄| ≤ (t₁+t₂)·s/√n, and |D₂−μ| adds
 /// t₁·s/√n with probability 1−α₁. The bound as printed, 2·t₂·s/√n, is not covered: step 2 compares filtered values.
+///
+/// Frames beside the target change none of it (Sec. 4): their pixels are in the set if their means lie in the interval of p.
 fn claims(params: &Params, steps: &[Step]) -> Claims {
     let mut claims = Claims::default();
     // The luminance test bounds luminance alone; without the test nothing is bounded.
@@ -151,6 +159,9 @@ fn notes(params: &Params) -> Vec<String> {
             SpreadKind::Propagated => "step 2 tests with a propagated standard error: no proven bound".into(),
             SpreadKind::Halves => "step 2 tests with filtered half buffers: no proven bound".into(),
         });
+    }
+    if params.neighbors > 0 {
+        notes.push("frames are compared place by place: nothing follows what moves".into());
     }
     if !params.homogeneous {
         notes.push("without homogeneous pixels nothing is claimed and the bias stays".into());

@@ -27,9 +27,10 @@ pub(crate) fn describe_step(
     output.diagnose(format!("homogeneous pixels, {name}"), Unit::Pixels, image);
 
     let window = homogeneous_window(params, inputs, probe.0, probe.1)?;
-    let side = window.side;
-    let members = Image::from_fn(side, side, 3, |c, x, y| f32::from(window.member[c][y * side + x]));
-    let weights = Image::from_fn(side, side, 3, |c, x, y| window.weight[c][y * side + x]);
+    // Frames one below the other in time order.
+    let (side, rows) = (window.side, window.frames * window.side);
+    let members = Image::from_fn(side, rows, 3, |c, x, y| f32::from(window.member[c][y * side + x]));
+    let weights = Image::from_fn(side, rows, 3, |c, x, y| window.weight[c][y * side + x]);
     output.diagnose(format!("homogeneous set of the probe, {name}"), Unit::None, members);
     output.diagnose(format!("weights of the probe, {name}"), Unit::None, weights);
     Ok(())

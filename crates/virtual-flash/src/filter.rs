@@ -1,4 +1,4 @@
-//! One filter step over homogeneous pixels (Sec. 3.2 and 3.3), by the kernel [`noisefloor_kernels::flash_filter`].
+//! One filter step over homogeneous pixels (Sec. 3.2 and 3.3; Sec. 4 in a volume of frames), by the kernel [`noisefloor_kernels::flash_filter`].
 //!
 //! D_p = Σ w·x̄_q / Σ w over q in H(Ω_p), weights g_s by distance and g_r by likeness of patches (Eq. 1). Divided by their sum
 //! k(p) the weights are not negative and add up to 1, which is all that the proof asks of them (App. A, Eq. 5).
@@ -6,7 +6,9 @@
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::flash_filter::{self, FlashFilterError, FlashInputs, FlashParams, PatchWeights};
+use noisefloor_kernels::flash_filter::{
+    self, FlashFilterError, FlashInputs, FlashParams, Neighbor, PatchWeights,
+};
 
 use crate::card::ID;
 use crate::guide::Guide;
@@ -25,19 +27,38 @@ pub(crate) fn kernel_params(frame: &Frame, step: &Step, patch: &PatchWeights) ->
     }
 }
 
-/// N, F and the half-widths that make H(Ω_p), for the kernel.
-pub(crate) fn inputs<'a>(
-    source: &'a Image,
-    guide: Option<&'a Guide>,
-    tolerance: &'a Tolerance,
-) -> FlashInputs<'a> {
-    FlashInputs {
+/// N, F and what is carried along of every frame of a volume (Sec. 4), in time order, for the kernel.
+pub(crate) fn planes<'a>(
+    sources: impl IntoIterator<Item = &'a Image>,
+    guides: &'a [Guide],
+    along: &'a [Along<'_>],
+) -> Vec<Neighbor<'a>> {
+    let frames = sources.into_iter().enumerate().map(|(at, source)| Neighbor {
         source: [0, 1, 2].map(|c| source.plane(c)),
-        membership: tolerance.membership(),
-        guide: guide.map(|guide| flash_filter::Guide {
+        guide: guides.get(at).map(|guide| flash_filter::Guide {
             planes: [0, 1, 2].map(|c| guide.image.plane(c)),
             sigma_r2: &guide.sigma_r2,
         }),
+        carried: along.get(at).map(Along::planes),
+    });
+    frames.collect()
+}
+
+/// The frame at `at`, at most `neighbors` frames on each side of it, and the half-widths that make H(Ω_p), for the kernel.
+pub(crate) fn inputs<'a>(
+    frames: &'a [Neighbor<'a>],
+    at: usize,
+    neighbors: usize,
+    tolerance: &'a Tolerance,
+) -> FlashInputs<'a> {
+    let (before, rest) = frames.split_at(at);
+    let (target, after) = (rest[0], &rest[1..]);
+    FlashInputs {
+        source: target.source,
+        membership: tolerance.membership(),
+        guide: target.guide,
+        before: &before[at.saturating_sub(neighbors)..],
+        after: &after[..neighbors.min(after.len())],
     }
 }
 

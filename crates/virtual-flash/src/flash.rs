@@ -20,12 +20,31 @@ pub(crate) fn per_pixel(image: &Image, value: impl Fn([f32; 3]) -> f32 + Sync) -
     out
 }
 
+/// Light of a frame, summed over its pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Light {
+    /// Σ (L(N) − L(F0)).
+    pub missing: f64,
+    /// Σ L(S).
+    pub flash: f64,
+}
+
 /// I = max(0, Σ (L(N) − L(F0)) / Σ L(S)): the flash light makes up for the light that F0 lacks (Sec. 3.1, which says so in words;
 /// the formula is ours).
 ///
+/// One for all frames of a volume: with one for each the same surface would differ from frame to frame. Without any light in S
+/// the intensity is 0.
+pub(crate) fn intensity(frames: impl IntoIterator<Item = Light>) -> f64 {
+    let (missing, flash) =
+        frames.into_iter().fold((0.0, 0.0), |sum, light| (sum.0 + light.missing, sum.1 + light.flash));
+    if flash > 0.0 && missing > 0.0 { missing / flash } else { 0.0 }
+}
+
+/// The sums that the intensity comes from.
+///
 /// L(N) and L(F0) are both clipped at the given percentile of L(N), so that neither a firefly nor a visible lamp, which both
-/// images show, sets the intensity. Pixels with a non-finite value are left out. Without any light in S the intensity is 0.
-pub(crate) fn intensity(color: &Image, base: &Image, light: &Image, clip_percentile: f64) -> f64 {
+/// images show, sets the intensity. Pixels with a non-finite value are left out.
+pub(crate) fn light_of(color: &Image, base: &Image, light: &Image, clip_percentile: f64) -> Light {
     let [n, f0, s] = [color, base, light].map(|image| per_pixel(image, luminance));
     let clip = percentile(n.clone(), clip_percentile);
     // Parts of fixed size, added in order: the same sum for any number of threads.
@@ -43,7 +62,7 @@ pub(crate) fn intensity(color: &Image, base: &Image, light: &Image, clip_percent
         })
         .collect();
     let (missing, flash) = parts.into_iter().fold((0.0, 0.0), |a, b| (a.0 + b.0, a.1 + b.1));
-    if flash > 0.0 && missing > 0.0 { missing / flash } else { 0.0 }
+    Light { missing, flash }
 }
 
 /// F = F0 + I·S: the two parts of Sec. 3.1.
@@ -80,6 +99,19 @@ pub(crate) fn variance(base: &Image, light: &Image, covariance: Option<&Image>, 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn intensity(color: &Image, base: &Image, light: &Image, clip_percentile: f64) -> f64 {
+        super::intensity([light_of(color, base, light, clip_percentile)])
+    }
+
+    #[test]
+    fn frames_of_a_volume_share_one_intensity() {
+        let light = |missing, flash| Light { missing, flash };
+        assert_eq!(super::intensity([light(6.0, 2.0), light(2.0, 2.0)]), 2.0);
+        // A frame that lacks nothing lowers that of the others.
+        assert_eq!(super::intensity([light(6.0, 2.0), light(-2.0, 2.0)]), 1.0);
+        assert_eq!(super::intensity([light(1.0, 0.0), light(1.0, 0.0)]), 0.0);
+    }
 
     #[test]
     fn intensity_makes_up_for_the_light_that_is_missing() {

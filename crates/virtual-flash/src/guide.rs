@@ -1,12 +1,15 @@
 //! The guide image F (Sec. 3.1) and the width σ_r of the range weights (Eq. 1) that its noise asks for (Sec. 4).
 
+use std::borrow::Cow;
+
 use noisefloor_frame::{Flash, Frame, Image, Variance};
 use noisefloor_kernels::flash_filter::PatchWeights;
 use noisefloor_kernels::mirror;
 use noisefloor_toolbox::percentile;
 use rayon::prelude::*;
 
-use crate::flash::{self, per_pixel};
+use crate::flash::{self, CHUNK, Light, per_pixel};
+use crate::volume::patch_in_time;
 use crate::{GuideKind, Params};
 
 /// What range weights are computed from.
@@ -23,37 +26,89 @@ pub(crate) struct Guide {
 }
 
 impl Guide {
-    /// `None` if the parameters ask for none, or if the frame lacks the buffers (its needs say so before).
-    pub fn new(frame: &Frame, params: &Params, patch: &PatchWeights) -> Option<Self> {
-        match params.guide {
-            GuideKind::None => None,
+    /// One for each frame of a volume. None if the parameters ask for none, or if a frame lacks the buffers (its needs say so
+    /// before).
+    pub fn of_frames(frames: &[&Frame], params: &Params, patch: &PatchWeights) -> Vec<Self> {
+        let (found, kappa): (Option<Vec<Found<'_>>>, f64) = match params.guide {
+            GuideKind::None => return Vec::new(),
             GuideKind::Color => {
-                let variance = frame.color.variance.as_ref()?.mean_variance();
-                let widths = Widths { kappa: params.color_kappa, params, patch };
-                Some(widths.guide(frame.color.mean.clone(), variance, None))
+                (frames.iter().map(|frame| Found::color(frame)).collect(), params.color_kappa)
             }
-            GuideKind::Flash => {
-                let widths = Widths { kappa: params.kappa, params, patch };
-                match frame.flash.as_ref()? {
-                    Flash::Ready(flash) => {
-                        let variance = flash.variance.as_ref()?.mean_variance();
-                        Some(widths.guide(flash.mean.clone(), variance, None))
-                    }
-                    Flash::Parts { base, light, covariance } => {
-                        let base_variance = base.variance.as_ref().map(Variance::mean_variance)?;
-                        let light_variance = light.variance.as_ref().map(Variance::mean_variance)?;
-                        let clip = params.luminance_clip_percentile;
-                        let intensity = params.intensity_scale
-                            * flash::intensity(&frame.color.mean, &base.mean, &light.mean, clip);
-                        let image = flash::sum(&base.mean, &light.mean, intensity);
-                        let variance =
-                            flash::variance(base_variance, light_variance, covariance.as_ref(), intensity);
-                        Some(widths.guide(image, &variance, Some(intensity)))
-                    }
-                }
+            GuideKind::Flash => (Found::flashes(frames, params), params.kappa),
+        };
+        let Some(found) = found else { return Vec::new() };
+        let (widths, mut images, mut variances) = (Widths { kappa, params, patch }, Vec::new(), Vec::new());
+        for found in found {
+            images.push((found.image, found.intensity));
+            variances.push(found.variance);
+        }
+        let guide = |(at, (image, intensity)): (usize, (Image, Option<f64>))| {
+            widths.guide(image, &mean_in_time(&variances, at, patch), intensity)
+        };
+        images.into_iter().enumerate().map(guide).collect()
+    }
+}
+
+/// A guide image as a frame has it.
+struct Found<'a> {
+    image: Image,
+    variance: Cow<'a, Image>,
+    /// Intensity I, if the flash came in parts.
+    intensity: Option<f64>,
+}
+
+impl<'a> Found<'a> {
+    fn color(frame: &'a Frame) -> Option<Self> {
+        let variance = frame.color.variance.as_ref()?.mean_variance();
+        let image = frame.color.mean.clone();
+        Some(Self { image, variance: Cow::Borrowed(variance), intensity: None })
+    }
+
+    /// Flash images, those that came in parts of one intensity.
+    fn flashes(frames: &[&'a Frame], params: &Params) -> Option<Vec<Self>> {
+        let light = |frame: &&Frame| -> Option<Light> {
+            let Flash::Parts { base, light, .. } = frame.flash.as_ref()? else { return None };
+            let clip = params.luminance_clip_percentile;
+            Some(flash::light_of(&frame.color.mean, &base.mean, &light.mean, clip))
+        };
+        let intensity = params.intensity_scale * flash::intensity(frames.iter().filter_map(light));
+        frames.iter().map(|frame| Self::flash(frame, intensity)).collect()
+    }
+
+    fn flash(frame: &'a Frame, intensity: f64) -> Option<Self> {
+        match frame.flash.as_ref()? {
+            Flash::Ready(flash) => {
+                let variance = Cow::Borrowed(flash.variance.as_ref()?.mean_variance());
+                Some(Self { image: flash.mean.clone(), variance, intensity: None })
+            }
+            Flash::Parts { base, light, covariance } => {
+                let base_variance = base.variance.as_ref().map(Variance::mean_variance)?;
+                let light_variance = light.variance.as_ref().map(Variance::mean_variance)?;
+                let image = flash::sum(&base.mean, &light.mean, intensity);
+                let variance = flash::variance(base_variance, light_variance, covariance.as_ref(), intensity);
+                Some(Self { image, variance: Cow::Owned(variance), intensity: Some(intensity) })
             }
         }
     }
+}
+
+/// Mean of variances over the frames of the patches of frame `at`.
+fn mean_in_time<'v>(variances: &'v [Cow<'_, Image>], at: usize, patch: &PatchWeights) -> Cow<'v, Image> {
+    let shares = patch_in_time(variances, at, patch);
+    if let [(_, only)] = shares[..] {
+        return Cow::Borrowed(only);
+    }
+    let mut mean = Image::new(variances[at].width(), variances[at].height(), variances[at].channels());
+    for (share, variance) in shares {
+        mean.data_mut().par_chunks_mut(CHUNK).zip(variance.data().par_chunks(CHUNK)).for_each(
+            |(mean, variance)| {
+                for (mean, &variance) in mean.iter_mut().zip(variance) {
+                    *mean += share as f32 * variance;
+                }
+            },
+        );
+    }
+    Cow::Owned(mean)
 }
 
 /// How a guide's variance becomes widths.
@@ -64,7 +119,7 @@ struct Widths<'a> {
 }
 
 impl Widths<'_> {
-    /// σ_r²(p) = κ²·mean over patch and channels of the guide's variance, at least (floor·bright level)². Sec. 4 says that σ_r is
+    /// σ_r²(p) = κ²·mean over patch and channels of the guide's variance, which is a mean over the patch's frames already, at least (floor·bright level)². Sec. 4 says that σ_r is
     /// proportional to the standard error of F; the rest is ours.
     fn guide(&self, image: Image, variance: &Image, intensity: Option<f64>) -> Guide {
         let magnitudes = per_pixel(&image, |values| {

@@ -10,6 +10,7 @@ mod method;
 mod params;
 mod spread;
 mod tolerance;
+mod volume;
 
 #[cfg(test)]
 mod tests;

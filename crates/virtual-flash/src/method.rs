@@ -5,16 +5,17 @@ use noisefloor_denoiser::{
     method,
 };
 use noisefloor_frame::Image;
-use noisefloor_kernels::flash_filter::{MAX_PIXELS, MAX_SOURCE, PatchWeights};
+use noisefloor_kernels::flash_filter::{MAX_PIXELS, PatchWeights};
 
 use crate::Params;
 use crate::algorithm::{self, Done};
 use crate::card::{self, ID};
 use crate::diagnostics::describe_step;
-use crate::filter::{inputs, kernel_error, kernel_params};
+use crate::filter::{inputs, kernel_error, kernel_params, planes};
 use crate::guide::Guide;
 use crate::params::Step;
 use crate::tolerance::Tolerance;
+use crate::volume::Volume;
 
 /// Factory of [`VirtualFlash`].
 #[must_use]
@@ -67,32 +68,33 @@ impl Denoiser for VirtualFlash {
     }
 
     fn denoise(&self, input: &Input<'_>) -> Result<Output, DenoiseError> {
-        input.check(&self.card())?;
-        let frame = input.target;
+        let card = self.card();
+        input.check(&card)?;
         let probe = probe(input)?;
-        DenoiseError::refuse_size(ID, frame, MAX_PIXELS)?;
-        DenoiseError::refuse(ID, "colour is not finite or above 1e30", &frame.color.mean, |v| {
-            v.abs() <= MAX_SOURCE
-        })?;
+        DenoiseError::refuse_size(ID, input.target, MAX_PIXELS)?;
+        let volume = Volume::new(input, self.params.neighbors);
+        volume.check(&card)?;
         let mut timer = StageTimer::start();
-        let Done { image, guide, first, second } =
-            algorithm::denoise(frame, &self.params, &self.steps, &self.patch, &mut timer)?;
+        let Done { image, mut guides, first, second } =
+            algorithm::denoise(&volume, &self.params, &self.steps, &self.patch, &mut timer)?;
 
         let mut output = Output::from_image(image);
-        figures(&mut output, guide.as_ref());
+        figures(&mut output, guides.get(volume.target));
         if let Some(probe) = probe {
-            let guide_of = guide.as_ref();
-            let describe = |output: &mut Output, step: &Step, source: &Image, tolerance: &Tolerance| {
-                let params = kernel_params(frame, step, &self.patch);
-                let inputs = inputs(source, guide_of, tolerance);
+            let describe = |output: &mut Output, step: &Step, sources: Vec<&Image>, tolerance: &Tolerance| {
+                let params = kernel_params(input.target, step, &self.patch);
+                let planes = planes(sources, &guides, &[]);
+                let inputs = inputs(&planes, volume.target, volume.neighbors, tolerance);
                 describe_step(output, step.name, &params, &inputs, probe).map_err(kernel_error)
             };
-            describe(&mut output, &self.steps[0], &frame.color.mean, &first)?;
-            if let Some((source, tolerance)) = second {
-                describe(&mut output, &self.steps[1], &source, &tolerance)?;
-                output.diagnose("after step 1", Unit::Radiance, source);
+            let means = volume.frames.iter().map(|frame| &frame.color.mean).collect();
+            describe(&mut output, &self.steps[0], means, &first)?;
+            if let Some((mut images, tolerance)) = second {
+                describe(&mut output, &self.steps[1], images.iter().collect(), &tolerance)?;
+                output.diagnose("after step 1", Unit::Radiance, images.swap_remove(volume.target));
             }
-            if let Some(guide) = guide {
+            if volume.target < guides.len() {
+                let guide = guides.swap_remove(volume.target);
                 output.diagnose("guide image", Unit::Radiance, guide.image);
             }
             timer.finish("diagnostics");

@@ -44,6 +44,9 @@ choices! {
     }
 }
 
+/// Most frames on each side: those that the source work looks at (Sec. 4).
+const MAX_NEIGHBORS: usize = 5;
+
 parameters! {
     /// Parameters of `virtual-flash`. Defaults are the source work's where it gives a value, and else ours.
     pub struct Params {
@@ -58,6 +61,8 @@ parameters! {
         test: TestKind = TestKind::Joint, choice::<TestKind>().section("Eq. 2");
         /// Standard error of the test in step 2, which the source does not state (default ours).
         second_spread: SpreadKind = SpreadKind::Least, choice::<SpreadKind>();
+        /// Frames on each side that windows and patches take in; 5 is the source work's for animations.
+        neighbors: usize = 0, integer(0..=MAX_NEIGHBORS).unit("frames").section("Sec. 4");
         /// Radius of the window in step 1: 3 is 7×7.
         first_window_radius_px: usize = 3, integer(0..=MAX_WINDOW_RADIUS).unit("px").symbol("Ω").section("Sec. 3.5");
         /// Level of step 1.

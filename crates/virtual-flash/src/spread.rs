@@ -56,10 +56,18 @@ impl<'a> Along<'a> {
     }
 
     /// The planes for the kernel; luminance three times.
+    pub fn planes(&self) -> [&[f32]; 3] {
+        match self {
+            Self::Variances(image) => three_planes(image),
+            Self::Difference(image) => three_planes(image),
+        }
+    }
+
+    /// The same with what is to be made of them.
     pub fn carried(&self) -> Carried<'_> {
         match self {
-            Self::Variances(image) => Carried::Variances(three_planes(image)),
-            Self::Difference(image) => Carried::Values(three_planes(image)),
+            Self::Variances(_) => Carried::Variances(self.planes()),
+            Self::Difference(_) => Carried::Values(self.planes()),
         }
     }
 

@@ -3,6 +3,7 @@
 mod bounds;
 mod citations;
 mod filter;
+mod neighbors;
 
 use noisefloor_conformance::assert_conforms;
 use noisefloor_denoiser::{DenoiseError, Denoiser, Diagnostics, Guarded, Input, Need, Output, half_widths};

@@ -64,6 +64,31 @@ pub enum FlashFilterError {
         /// Allowed range, in words.
         allowed: &'static str,
     },
+    /// Too many frames on one side of the target.
+    #[error("{value} frames {side} the target: allowed 0 to {max}")]
+    Neighbors {
+        /// `before` or `after`.
+        side: &'static str,
+        /// Number of frames handed in.
+        value: usize,
+        /// Largest allowed number.
+        max: usize,
+    },
+    /// A frame beside the target has planes where the target has none, or the reverse.
+    #[error("planes `{planes}` must be there in all frames or in none")]
+    Unlike {
+        /// Name of the planes.
+        planes: &'static str,
+    },
+    /// Something is wrong with a frame beside the target.
+    #[error("frame {time:+} from the target: {error}")]
+    Neighbor {
+        /// Place in time: -1 is the frame before the target, 1 the one after it.
+        time: isize,
+        /// What is wrong.
+        #[source]
+        error: Box<FlashFilterError>,
+    },
     /// The processor lacks the instruction set asked for.
     #[error("instruction set `{level}` is not available on this machine")]
     LevelUnavailable {

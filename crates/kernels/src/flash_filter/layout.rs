@@ -10,6 +10,15 @@ use crate::engine::{Grid, LINE, MAX_LANES};
 /// Most horizontal offsets that one pass over a tile handles together.
 pub(super) const BLOCK: usize = 16;
 
+/// Planes of one frame on the source's grid: three of values, the tested one, ...
+pub(super) const TESTED: usize = 3;
+/// ... the range factor, ...
+pub(super) const FACTOR: usize = 4;
+/// ... and three that are carried along.
+pub(super) const CARRIED: usize = 5;
+/// All of them.
+pub(super) const FRAME_PLANES: usize = 8;
+
 /// Sizes and distances, in values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layout {
@@ -17,6 +26,8 @@ pub(super) struct Layout {
     pub reach: usize,
     /// Patch radius f.
     pub patch: usize,
+    /// Frames, the target first.
+    pub frames: usize,
     /// Copies of the source, of range factors and of carried planes: the tile and r pixels around it.
     pub source: Grid,
     /// Guide copies: the tile and r + f pixels around it.
@@ -28,7 +39,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub fn new((tile_width, tile_height): (usize, usize), reach: usize, patch: usize) -> Self {
+    pub fn new((tile_width, tile_height): (usize, usize), reach: usize, patch: usize, frames: usize) -> Self {
         debug_assert!(tile_width.is_multiple_of(MAX_LANES) && tile_width > 0 && tile_height > 0);
         // A whole number of lines on the left, so that the centre's loads are aligned.
         let left = reach.next_multiple_of(LINE);
@@ -36,6 +47,7 @@ impl Layout {
         Self {
             reach,
             patch,
+            frames,
             source: Grid::new(left, reach, left + tile_width + reach, tile_height + 2 * reach),
             guide: Grid::new(
                 left + patch,
@@ -46,5 +58,15 @@ impl Layout {
             pixel: Grid::new(0, 0, tile_width, tile_height),
             columns: Grid::new(patch, 0, with_patch, tile_height),
         }
+    }
+
+    /// Values between the copies of one frame and those of the next, all on the source's grid.
+    pub fn frame(&self) -> usize {
+        FRAME_PLANES * self.source.plane
+    }
+
+    /// Values between the guides of frames.
+    pub fn guide_frame(&self) -> usize {
+        3 * self.guide.plane
     }
 }

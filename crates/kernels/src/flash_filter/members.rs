@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::volume::{TARGET, Volume};
 use super::{FlashInputs, Membership};
 
 /// Half-widths at or above this mean "everything passes"; the value itself stands for that.
@@ -30,8 +31,8 @@ pub fn luminance(r: f32, g: f32, b: f32) -> f32 {
 /// One value plane to be tested, with its tolerance; no tolerance means that everything passes.
 #[derive(Clone, Debug)]
 pub(super) struct Test<'a> {
-    /// What is compared.
-    pub values: Cow<'a, [f32]>,
+    /// What is compared, one plane for each frame of the volume.
+    pub values: Vec<Cow<'a, [f32]>>,
     /// τ ≥ 0 of each centre pixel.
     pub tolerance: Option<&'a [f32]>,
 }
@@ -39,12 +40,12 @@ pub(super) struct Test<'a> {
 impl Test<'_> {
     /// Half-width at centre pixel `p`, rounding allowance included.
     pub fn half_width(&self, p: usize) -> f32 {
-        self.tolerance.map_or(EVERYTHING, |tolerance| half_width(tolerance[p], self.values[p]))
+        self.tolerance.map_or(EVERYTHING, |tolerance| half_width(tolerance[p], self.values[TARGET][p]))
     }
 
-    /// Whether pixel `q` passes the test of pixel `p`.
-    pub fn passes(&self, p: usize, q: usize) -> bool {
-        (self.values[q] - self.values[p]).abs() <= self.half_width(p)
+    /// Whether pixel `q` of a frame passes the test of the target's pixel `p`.
+    pub fn passes(&self, p: usize, frame: usize, q: usize) -> bool {
+        (self.values[frame][q] - self.values[TARGET][p]).abs() <= self.half_width(p)
     }
 }
 
@@ -58,25 +59,29 @@ pub(super) enum Tests<'a> {
 }
 
 impl<'a> Tests<'a> {
-    pub fn new(inputs: &FlashInputs<'a>) -> Self {
-        let of = |c: usize, tolerance| Test { values: Cow::Borrowed(inputs.source[c]), tolerance };
+    pub fn new(inputs: &FlashInputs<'a>, volume: &Volume) -> Self {
+        let frames = volume.of(inputs);
+        let values = |c: usize| frames.iter().map(|frame| Cow::Borrowed(frame.source[c])).collect();
+        let of = |c: usize, tolerance| Test { values: values(c), tolerance };
         match inputs.membership {
             Membership::Joint(t) => Tests::Shared((0..3).map(|c| of(c, Some(t[c]))).collect()),
             Membership::PerChannel(t) => Tests::PerChannel([0, 1, 2].map(|c| of(c, Some(t[c])))),
             Membership::Luminance(tolerance) => {
-                let [r, g, b] = inputs.source;
-                let values = r.iter().zip(g).zip(b).map(|((&r, &g), &b)| luminance(r, g, b)).collect();
-                Tests::Shared(vec![Test { values, tolerance: Some(tolerance) }])
+                let values = frames.iter().map(|frame| {
+                    let [r, g, b] = frame.source;
+                    r.iter().zip(g).zip(b).map(|((&r, &g), &b)| luminance(r, g, b)).collect()
+                });
+                Tests::Shared(vec![Test { values: values.collect(), tolerance: Some(tolerance) }])
             }
             Membership::Off => Tests::Shared(vec![of(0, None)]),
         }
     }
 
-    /// For each channel, whether `q` is in the set of `p`.
-    pub fn members(&self, p: usize, q: usize) -> [bool; 3] {
+    /// For each channel, whether `q` of a frame is in the set of the target's `p`.
+    pub fn members(&self, p: usize, frame: usize, q: usize) -> [bool; 3] {
         match self {
-            Tests::Shared(tests) => [tests.iter().all(|test| test.passes(p, q)); 3],
-            Tests::PerChannel(tests) => [0, 1, 2].map(|c| tests[c].passes(p, q)),
+            Tests::Shared(tests) => [tests.iter().all(|test| test.passes(p, frame, q)); 3],
+            Tests::PerChannel(tests) => [0, 1, 2].map(|c| tests[c].passes(p, frame, q)),
         }
     }
 }

@@ -18,6 +18,20 @@
 //! Whatever the input, |D_c(p) − x̄_c(p)| ≤ τ_c(p) (App. A, Eq. 6) up to rounding, in every pixel and in every channel that is
 //! tested: all three for [`Membership::Joint`] and [`Membership::PerChannel`], luminance alone for
 //! [`Membership::Luminance`].
+//!
+//! # Animations
+//!
+//! With frames beside the target the images are a volume and windows and patches are cubes in it (Sec. 4, denoising
+//! animations): q is a pixel of any frame at most r frames away, and j goes over the taps of 2f+1 frames. What the section does not
+//! say is ours:
+//!
+//! * The distance |p−q| has three dimensions, a frame counting as a pixel: so g_s falls along time as it does along rows.
+//! * The half-width is that of p, whatever the frame of q; so the bound holds as before.
+//! * The window is clipped to the frames that are there, as to the image. Of a patch those taps count whose frames are there
+//!   for both pixels, and G is scaled to Σ_j G(j) = 1 over them.
+//!
+//! Nothing follows motion: a pixel is compared with what is in its place and around it in the other frames. The time taken is that of
+//! one frame for each frame of the window, times three to four where patches are cubes of 5 frames.
 
 mod diagnostics;
 mod error;
@@ -27,13 +41,14 @@ mod members;
 pub mod naive;
 mod params;
 pub(crate) mod tiled;
+mod volume;
 
 pub use diagnostics::{HomogeneousWindow, homogeneous_counts, homogeneous_window};
 pub use error::FlashFilterError;
 pub use members::{half_width, luminance};
 pub use params::{
-    Carried, Filtered, FlashInputs, FlashParams, Guide, MAX_PATCH_RADIUS, MAX_PIXELS, MAX_SOURCE,
-    MAX_WINDOW_RADIUS, Membership, PatchWeights,
+    Carried, Filtered, FlashInputs, FlashParams, Guide, MAX_NEIGHBORS, MAX_PATCH_RADIUS, MAX_PIXELS,
+    MAX_SOURCE, MAX_WINDOW_RADIUS, Membership, Neighbor, PatchWeights,
 };
 
 use crate::engine::{InstructionSet, TILE};
@@ -55,7 +70,13 @@ use crate::engine::{InstructionSet, TILE};
 ///     patch: PatchWeights::gaussian(2, 1.25)?,
 /// };
 /// let plane = [0.0, 3.0, 6.0];
-/// let inputs = FlashInputs { source: [&plane; 3], membership: Membership::Off, guide: None };
+/// let inputs = FlashInputs {
+///     source: [&plane; 3],
+///     membership: Membership::Off,
+///     guide: None,
+///     before: &[],
+///     after: &[],
+/// };
 /// assert_eq!(filter(&params, &inputs)?[0], [1.5, 3.0, 4.5]);
 ///
 /// // A half-width of 1 keeps such unequal neighbours out.
@@ -89,7 +110,13 @@ pub fn filter(params: &FlashParams, inputs: &FlashInputs<'_>) -> Result<[Vec<f32
 ///     spatial_sigma: f32::INFINITY,
 ///     patch: PatchWeights::gaussian(2, 1.25)?,
 /// };
-/// let inputs = FlashInputs { source: [&[0.0; 3]; 3], membership: Membership::Off, guide: None };
+/// let inputs = FlashInputs {
+///     source: [&[0.0; 3]; 3],
+///     membership: Membership::Off,
+///     guide: None,
+///     before: &[],
+///     after: &[],
+/// };
 /// let filtered = filter_carrying(&params, &inputs, &Carried::Variances([&[1.0; 3]; 3]))?;
 /// assert_eq!(filtered.carried[0], [0.5, 1.0 / 3.0, 0.5]);
 /// # Ok::<(), noisefloor_kernels::flash_filter::FlashFilterError>(())
@@ -100,7 +127,7 @@ pub fn filter_carrying(
     carried: &Carried<'_>,
 ) -> Result<Filtered, FlashFilterError> {
     params.check(inputs)?;
-    params.check_carried(carried)?;
+    params.check_carried(inputs, carried)?;
     let planes = || [(); 3].map(|()| vec![0.0; params.width * params.height]);
     let mut out = Filtered { image: planes(), carried: planes() };
     let all = out.image.iter_mut().chain(&mut out.carried).map(Vec::as_mut_slice);
@@ -121,7 +148,7 @@ pub fn filter_carrying_into(
     [image, sums]: [[&mut [f32]; 3]; 2],
 ) -> Result<(), FlashFilterError> {
     params.check(inputs)?;
-    params.check_carried(carried)?;
+    params.check_carried(inputs, carried)?;
     check_output(params, level, &image)?;
     check_output(params, level, &sums)?;
     tiled::filter(params, inputs, Some(carried), level, TILE, image.into_iter().chain(sums));

@@ -9,6 +9,8 @@ pub const MAX_WINDOW_RADIUS: usize = 32;
 pub const MAX_PATCH_RADIUS: usize = 3;
 /// Largest magnitude of a source value. Differences of two such values stay far from overflow.
 pub const MAX_SOURCE: f32 = 1e30;
+/// Most frames before the target, and most after it.
+pub const MAX_NEIGHBORS: usize = 8;
 /// Most pixels that an image may have: indices and padded tile coordinates stay far from overflow.
 pub const MAX_PIXELS: usize = 1 << 31;
 
@@ -19,12 +21,13 @@ pub struct FlashParams {
     pub width: usize,
     /// Image height in pixels, at least 1.
     pub height: usize,
-    /// Window radius r in pixels: the window has (2r+1)² pixels and is clipped at the image border.
+    /// Window radius r in pixels: the window has (2r+1)² pixels and is clipped at the image border. With frames beside the
+    /// target it is a cube and reaches r frames to both sides, as far as they are there.
     /// 0 to [`MAX_WINDOW_RADIUS`]; moon2013flash uses 3, then 15 (Sec. 3.5).
     pub window_radius: usize,
-    /// Standard deviation σ_s of the spatial Gaussian in pixels, greater than 0; infinity switches it off.
+    /// Standard deviation σ_s of the spatial Gaussian in pixels and in frames, greater than 0; infinity switches it off.
     pub spatial_sigma: f32,
-    /// Weights of the patch over which guide differences are averaged.
+    /// Weights of the patch over which guide differences are averaged; along time as in rows and columns.
     pub patch: PatchWeights,
 }
 
@@ -113,7 +116,8 @@ pub struct Guide<'a> {
     pub sigma_r2: &'a [f32],
 }
 
-/// Planes that are summed along with the source, over the same sets and with the same weights. Finite values.
+/// Planes of the target that are summed along with the source, over the same sets and with the same weights. Finite values.
+/// Frames beside the target bring theirs in [`Neighbor::carried`].
 #[derive(Clone, Copy, Debug)]
 pub enum Carried<'a> {
     /// v, for Σ w·v / Σ w: what the filter makes of another image.
@@ -150,6 +154,34 @@ pub struct FlashInputs<'a> {
     pub membership: Membership<'a>,
     /// The guide; without one every range weight is 1.
     pub guide: Option<Guide<'a>>,
+    /// Frames before the target in time order, the earliest first; at most [`MAX_NEIGHBORS`], and none for a still image.
+    pub before: &'a [Neighbor<'a>],
+    /// Frames after the target in time order; at most [`MAX_NEIGHBORS`].
+    pub after: &'a [Neighbor<'a>],
+}
+
+/// A frame of an animation beside the target (moon2013flash, Sec. 4), in planes as large as the target's and with the same
+/// limits.
+#[derive(Clone, Copy, Debug)]
+pub struct Neighbor<'a> {
+    /// What is tested and averaged.
+    pub source: [&'a [f32]; 3],
+    /// The guide: there if the target has one, and only then.
+    pub guide: Option<Guide<'a>>,
+    /// What a pass that carries planes along sums of this frame; of the kind that [`Carried`] says of the target. Needed by
+    /// such passes only.
+    pub carried: Option<[&'a [f32]; 3]>,
+}
+
+impl<'a> FlashInputs<'a> {
+    /// The frame `time` after the target, which is at 0.
+    pub(super) fn frame(&self, time: isize) -> Option<Neighbor<'a>> {
+        match time {
+            0 => Some(Neighbor { source: self.source, guide: self.guide, carried: None }),
+            1.. => self.after.get(time as usize - 1).copied(),
+            _ => Some(self.before[self.before.len().checked_sub(time.unsigned_abs())?]),
+        }
+    }
 }
 
 impl FlashParams {
@@ -168,9 +200,7 @@ impl FlashParams {
         if self.spatial_sigma.is_nan() || self.spatial_sigma <= 0.0 {
             return Err(FlashFilterError::Sigma { parameter: "spatial sigma", value: self.spatial_sigma });
         }
-        for (name, plane) in ["source 0", "source 1", "source 2"].into_iter().zip(inputs.source) {
-            self.check_plane(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_SOURCE)?;
-        }
+        self.check_source(inputs.source)?;
         let half_widths = |name, plane| self.check_plane(name, plane, "0 to infinity", |v| v >= 0.0);
         match inputs.membership {
             Membership::Joint(planes) | Membership::PerChannel(planes) => {
@@ -183,20 +213,55 @@ impl FlashParams {
             Membership::Off => {}
         }
         if let Some(guide) = inputs.guide {
-            for (name, plane) in ["guide 0", "guide 1", "guide 2"].into_iter().zip(guide.planes) {
-                self.check_plane(name, plane, "any finite value", |v| v.is_finite())?;
+            self.check_guide(guide)?;
+        }
+        for (side, frames) in [("before", inputs.before), ("after", inputs.after)] {
+            if frames.len() > MAX_NEIGHBORS {
+                return Err(FlashFilterError::Neighbors { side, value: frames.len(), max: MAX_NEIGHBORS });
             }
-            self.check_plane("sigma_r2", guide.sigma_r2, "greater than 0", |v| v > 0.0)?;
+        }
+        each_neighbor(inputs, |neighbor| {
+            self.check_source(neighbor.source)?;
+            match (inputs.guide, neighbor.guide) {
+                (None, None) => Ok(()),
+                (Some(_), Some(guide)) => self.check_guide(guide),
+                _ => Err(FlashFilterError::Unlike { planes: "guide" }),
+            }
+        })
+    }
+
+    /// Checks planes that are carried along, those of the frames beside the target too.
+    ///
+    /// # Errors
+    /// As [`FlashParams::check`].
+    pub fn check_carried(
+        &self,
+        inputs: &FlashInputs<'_>,
+        carried: &Carried<'_>,
+    ) -> Result<(), FlashFilterError> {
+        let (planes, variances) = carried.parts();
+        self.check_sums(planes, variances)?;
+        each_neighbor(inputs, |neighbor| match neighbor.carried {
+            Some(planes) => self.check_sums(planes, variances),
+            None => Err(FlashFilterError::Unlike { planes: "carried" }),
+        })
+    }
+
+    fn check_source(&self, source: [&[f32]; 3]) -> Result<(), FlashFilterError> {
+        for (name, plane) in ["source 0", "source 1", "source 2"].into_iter().zip(source) {
+            self.check_plane(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_SOURCE)?;
         }
         Ok(())
     }
 
-    /// Checks planes that are carried along.
-    ///
-    /// # Errors
-    /// As [`FlashParams::check`].
-    pub fn check_carried(&self, carried: &Carried<'_>) -> Result<(), FlashFilterError> {
-        let (planes, variances) = carried.parts();
+    fn check_guide(&self, guide: Guide<'_>) -> Result<(), FlashFilterError> {
+        for (name, plane) in ["guide 0", "guide 1", "guide 2"].into_iter().zip(guide.planes) {
+            self.check_plane(name, plane, "any finite value", |v| v.is_finite())?;
+        }
+        self.check_plane("sigma_r2", guide.sigma_r2, "greater than 0", |v| v > 0.0)
+    }
+
+    fn check_sums(&self, planes: [&[f32]; 3], variances: bool) -> Result<(), FlashFilterError> {
         for (name, plane) in ["carried 0", "carried 1", "carried 2"].into_iter().zip(planes) {
             if variances {
                 self.check_plane(name, plane, "finite and at least 0", |v| (0.0..=f32::MAX).contains(&v))?;
@@ -223,4 +288,16 @@ impl FlashParams {
         let (x, y) = (index % self.width, index / self.width);
         Err(FlashFilterError::Value { plane, x, y, value: values[index], allowed })
     }
+}
+
+/// Checks the frames beside the target; the first error says which frame has it.
+fn each_neighbor(
+    inputs: &FlashInputs<'_>,
+    check: impl Fn(&Neighbor<'_>) -> Result<(), FlashFilterError>,
+) -> Result<(), FlashFilterError> {
+    let before = inputs.before.iter().zip(-(inputs.before.len() as isize)..);
+    for (neighbor, time) in before.chain(inputs.after.iter().zip(1..)) {
+        check(neighbor).map_err(|error| FlashFilterError::Neighbor { time, error: Box::new(error) })?;
+    }
+    Ok(())
 }

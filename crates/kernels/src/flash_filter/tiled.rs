@@ -1,10 +1,11 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{JOINT, Offsets, SEPARATE, SINGLE, Step, TileView};
-use super::layout::{BLOCK, Layout};
+use super::hot::{CubeColumns, GuidePair, JOINT, Offsets, SEPARATE, SINGLE, Step, TileView};
+use super::layout::{BLOCK, CARRIED, FACTOR, Layout, TESTED};
 use super::members::{EVERYTHING, Tests, half_width};
 use super::params::MAX_PATCH_RADIUS;
-use super::{Carried, FlashInputs, FlashParams};
+use super::volume::{TARGET, Volume};
+use super::{Carried, FlashInputs, FlashParams, Neighbor};
 use crate::engine::{Block, Copies, InstructionSet, Plane, Scratch, Tile, TileRows, Window, for_each_tile};
 
 /// Value of source pixels outside the image. It differs from every pixel by more than any half-width, so that the
@@ -15,6 +16,9 @@ const OUTSIDE: f32 = 3e38;
 struct Job<'a> {
     params: &'a FlashParams,
     inputs: &'a FlashInputs<'a>,
+    volume: Volume,
+    /// The frames of the volume, the target with its carried planes.
+    frames: Vec<Neighbor<'a>>,
     tests: Tests<'a>,
     layout: Layout,
     level: InstructionSet,
@@ -36,7 +40,10 @@ pub(crate) fn filter<'o>(
     tile_size: (usize, usize),
     out: impl IntoIterator<Item = &'o mut [f32]>,
 ) {
-    let tests = Tests::new(inputs);
+    let volume = Volume::new(params, inputs);
+    let mut frames = volume.of(inputs);
+    frames[TARGET].carried = carried.map(|carried| carried.parts().0);
+    let tests = Tests::new(inputs, &volume);
     let rule = match &tests {
         Tests::PerChannel(_) => SEPARATE,
         Tests::Shared(tests) if tests.len() == 1 => SINGLE,
@@ -54,8 +61,10 @@ pub(crate) fn filter<'o>(
     let job = Job {
         params,
         inputs,
+        volume,
+        frames,
         tests,
-        layout: Layout::new(tile_size, params.window_radius, patch),
+        layout: Layout::new(tile_size, params.window_radius, patch, volume.frames()),
         level,
         rule,
         taps,
@@ -75,41 +84,38 @@ pub(crate) fn filter<'o>(
 }
 
 impl Job<'_> {
-    /// Values of a worker's parts: source, guide, half-widths, factors, carried planes, sums, columns.
-    fn sizes(&self) -> [usize; 7] {
-        let Layout { source, guide, pixel, columns, .. } = self.layout;
-        [
-            4 * source.plane,
-            3 * guide.plane,
-            3 * pixel.plane,
-            source.plane,
-            3 * source.plane,
-            9 * pixel.plane,
-            BLOCK * columns.plane,
-        ]
+    /// Values of a worker's parts: frames, guides, half-widths, sums, columns.
+    fn sizes(&self) -> [usize; 5] {
+        let Layout { frames, pixel, columns, .. } = self.layout;
+        let guides = if self.inputs.guide.is_some() { frames * self.layout.guide_frame() } else { 0 };
+        [frames * self.layout.frame(), guides, 3 * pixel.plane, 9 * pixel.plane, BLOCK * columns.plane]
     }
 
     fn run(&self, scratch: &mut Scratch, tile: Tile, out: Vec<TileRows<'_>>) {
-        let [source, guide, half_width, factor, carried, sums, columns] = scratch.parts(self.sizes());
+        let [frames, guide, half_width, sums, columns] = scratch.parts(self.sizes());
         let guided = self.inputs.guide.is_some();
         let copies = Copies { width: self.params.width, height: self.params.height, tile };
-        self.copy_source(&copies, source);
-        self.copy_guide(&copies, guide);
-        self.copy_factor(&copies, factor);
-        self.copy_carried(&copies, carried);
+        for (_, place) in self.volume.window() {
+            self.copy_frame(&copies, place, &mut frames[place * self.layout.frame()..]);
+        }
+        for (frame, to) in self.frames.iter().zip(guide.chunks_exact_mut(self.layout.guide_frame())) {
+            self.copy_guide(&copies, frame, to);
+        }
         self.fill_half_widths(tile, half_width);
         sums.fill(0.0);
+        let plane = self.layout.source.plane;
         // SAFETY: the parts have the sizes of the layout, whose copies reach as far around the tile as the window and the
-        // patch do, and a vector more; the walk keeps offsets within the reach and rows within the tile.
+        // patch do, and a vector more, for each frame of the volume; the walk keeps offsets within the reach and rows within
+        // the tile, and places of frames come from the volume.
         let mut view = unsafe {
             TileView {
                 layout: &self.layout,
                 width: tile.width,
-                source: Plane::vouched(source),
+                source: Plane::vouched(frames),
                 guide: guided.then(|| Plane::vouched(guide)),
                 half_width: Plane::vouched(half_width),
-                factor: Plane::vouched(factor),
-                carried: self.carried.map(|_| Plane::vouched(carried)),
+                factor: Plane::vouched(&frames[FACTOR * plane..]),
+                carried: self.carried.map(|_| Plane::vouched(&frames[CARRIED * plane..])),
                 squared: self.squared(),
                 sums: Plane::vouched_mut(sums),
                 columns: Plane::vouched_mut(columns),
@@ -117,11 +123,34 @@ impl Job<'_> {
             }
         };
         let (width, height) = (self.params.width, self.params.height);
-        for block in (Window { width, height, reach: self.layout.reach }).blocks(tile, BLOCK) {
-            let offsets = self.offsets(block);
-            self.level.launch(Step { tile: &mut view, offsets: &offsets, rule: self.rule });
+        for (time, place) in self.volume.window() {
+            let pairs = self.pairs(time);
+            for block in (Window { width, height, reach: self.layout.reach }).blocks(tile, BLOCK) {
+                let offsets = self.offsets(block, time, place);
+                let summed = !pairs.is_empty();
+                if summed {
+                    self.level.launch(CubeColumns { tile: &mut view, offsets: &offsets, pairs: &pairs });
+                }
+                self.level.launch(Step { tile: &mut view, offsets: &offsets, rule: self.rule, summed });
+            }
         }
-        self.finish(source, sums, tile, out);
+        self.finish(frames, sums, tile, out);
+    }
+
+    /// What the patches of pixels and their neighbours `time` later compare; nothing to list for the target alone.
+    fn pairs(&self, time: isize) -> Vec<GuidePair> {
+        if self.layout.frames == 1 {
+            return Vec::new();
+        }
+        let start = |place: usize| place * self.layout.guide_frame();
+        let slabs = self.volume.slabs(time).into_iter();
+        let pairs = slabs.map(|slab| GuidePair {
+            here: start(slab.here),
+            there: start(slab.there),
+            weight: slab.weight as f32,
+        });
+        // A weight that vanishes would make no number of a square that overflows.
+        pairs.filter(|pair| pair.weight > 0.0).collect()
     }
 
     fn squared(&self) -> bool {
@@ -129,34 +158,43 @@ impl Job<'_> {
     }
 
     /// A block with what it holds for each offset: the exponent of the spatial weight, or without a guide the weight itself.
-    fn offsets(&self, block: Block) -> Offsets {
+    /// Along time the distance counts in frames as along rows in pixels (Sec. 4).
+    fn offsets(&self, block: Block, time: isize, place: usize) -> Offsets {
         let mut spatial = [0.0; BLOCK];
         for (o, value) in spatial.iter_mut().enumerate().take(block.count) {
-            let squared = block.dy.pow(2) + (block.dx + o as isize).pow(2);
+            let squared = block.dy.pow(2) + (block.dx + o as isize).pow(2) + time.pow(2);
             let exponent = if squared == 0 { 0.0 } else { squared as f64 * self.spatial };
             *value = match self.inputs.guide {
                 Some(_) => exponent as f32,
                 None => exponent.exp2() as f32,
             };
         }
-        Offsets { block, spatial }
+        Offsets { block, frame: place * self.layout.frame(), spatial }
     }
 
-    /// Copies the source and the tested plane, outside the image [`OUTSIDE`].
-    fn copy_source(&self, copies: &Copies, to: &mut [f32]) {
-        let grid = &self.layout.source;
-        let mut planes = to.chunks_exact_mut(grid.plane);
-        for (plane, to) in self.inputs.source.into_iter().zip(&mut planes) {
+    /// Copies what is read at neighbours in one frame.
+    fn copy_frame(&self, copies: &Copies, place: usize, to: &mut [f32]) {
+        let (grid, frame) = (&self.layout.source, &self.frames[place]);
+        // The source and the tested plane, outside the image `OUTSIDE`.
+        for (plane, to) in frame.source.into_iter().zip(to.chunks_exact_mut(grid.plane)) {
             copies.marked(grid, plane, to, OUTSIDE);
         }
-        if let (SINGLE, Tests::Shared(tests), Some(to)) = (self.rule, &self.tests, planes.next()) {
-            copies.marked(grid, &tests[0].values, to, OUTSIDE);
+        if let (SINGLE, Tests::Shared(tests)) = (self.rule, &self.tests) {
+            copies.marked(grid, &tests[0].values[place], &mut to[TESTED * grid.plane..], OUTSIDE);
+        }
+        self.copy_factor(copies, frame, &mut to[FACTOR * grid.plane..][..grid.plane]);
+        // Carried planes, outside the image 0.
+        if let Some(carried) = frame.carried.filter(|_| self.carried.is_some()) {
+            let to = to[CARRIED * grid.plane..].chunks_exact_mut(grid.plane);
+            for (plane, to) in carried.into_iter().zip(to) {
+                copies.marked(grid, plane, to, 0.0);
+            }
         }
     }
 
-    /// Copies the guide with its surroundings, mirrored at the border of the image.
-    fn copy_guide(&self, copies: &Copies, to: &mut [f32]) {
-        let Some(guide) = self.inputs.guide else { return };
+    /// Copies a guide with its surroundings, mirrored at the border of the image.
+    fn copy_guide(&self, copies: &Copies, frame: &Neighbor<'_>, to: &mut [f32]) {
+        let Some(guide) = frame.guide else { return };
         let grid = &self.layout.guide;
         for (plane, to) in guide.planes.into_iter().zip(to.chunks_exact_mut(grid.plane)) {
             copies.mirrored(grid, plane, to, 1.0);
@@ -165,21 +203,12 @@ impl Job<'_> {
 
     /// Copies the factors that the guide's widths give. Pixels outside the image get that of 1, as their weight is 0
     /// whatever it is.
-    fn copy_factor(&self, copies: &Copies, to: &mut [f32]) {
-        let Some(guide) = self.inputs.guide else { return };
+    fn copy_factor(&self, copies: &Copies, frame: &Neighbor<'_>, to: &mut [f32]) {
+        let Some(guide) = frame.guide else { return };
         copies.marked(&self.layout.source, guide.sigma_r2, to, 1.0);
         for value in to {
             // Finite, so that distance 0 gives exponent 0 whatever the width.
             *value = (self.range / f64::from(*value)).max(f64::from(f32::MIN)) as f32;
-        }
-    }
-
-    /// Copies carried planes, outside the image 0.
-    fn copy_carried(&self, copies: &Copies, to: &mut [f32]) {
-        let Some(carried) = self.carried else { return };
-        let grid = &self.layout.source;
-        for (plane, to) in carried.parts().0.into_iter().zip(to.chunks_exact_mut(grid.plane)) {
-            copies.marked(grid, plane, to, 0.0);
         }
     }
 
@@ -198,7 +227,7 @@ impl Job<'_> {
                     row.fill(EVERYTHING);
                     continue;
                 };
-                let (tolerance, center) = (&tolerance[first..], &test.values[first..]);
+                let (tolerance, center) = (&tolerance[first..], &test.values[TARGET][first..]);
                 for ((value, &tolerance), &center) in row.iter_mut().zip(tolerance).zip(center) {
                     *value = half_width(tolerance, center);
                 }

@@ -42,6 +42,7 @@ const STUDIES: &[BuiltinStudy] = studies![
     "vfi-ablations",
     "vfi-guide",
     "vfi-kappa",
+    "vfi-animation",
     "vfi-check-640",
     "rdfc-fig02",
     "rdfc-fig03",

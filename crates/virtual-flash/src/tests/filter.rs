@@ -134,8 +134,9 @@ fn second_variance(f: &Frame, params: &Params) -> Image {
     let tolerance =
         tolerance::Tolerance::new(params, Some(tested.clone().into_owned()), &f.samples, step.level);
     let patch = noisefloor_kernels::flash_filter::PatchWeights::gaussian(2, 1.25).unwrap();
-    let guide = guide::Guide::new(f, params, &patch);
-    let inputs = crate::filter::inputs(&f.color.mean, guide.as_ref(), &tolerance);
+    let guides = guide::Guide::of_frames(&[f], params, &patch);
+    let planes = crate::filter::planes([&f.color.mean], &guides, &[]);
+    let inputs = crate::filter::inputs(&planes, 0, 0, &tolerance);
     let (_, sums) = crate::filter::step(f, step, &patch, &inputs, Some(&along)).unwrap();
     along.variance(sums.unwrap(), params.second_spread, &f.samples)
 }
@@ -312,6 +313,7 @@ fn parameters_out_of_range_are_named() {
         VirtualFlash::new(params).unwrap_err()
     };
     assert_eq!(bad(|p| p.steps = 3).parameter, "steps");
+    assert_eq!(bad(|p| p.neighbors = 6).parameter, "neighbors");
     assert_eq!(bad(|p| p.first_window_radius_px = 33).parameter, "first_window_radius_px");
     assert_eq!(bad(|p| p.first_confidence = 1.0).parameter, "first_confidence");
     assert_eq!(bad(|p| p.second_confidence = 99.0).parameter, "second_confidence");

@@ -7,11 +7,11 @@ mod distances;
 mod tile;
 mod weigh;
 
-pub(super) use tile::{JOINT, Offsets, SEPARATE, SINGLE, TileView};
+pub(super) use tile::{GuidePair, JOINT, Offsets, SEPARATE, SINGLE, TileView};
 
-use self::distances::GuideDistance;
+use self::distances::{CubeDistance, GuideDistance};
 use self::weigh::accumulate;
-use crate::engine::{Columns, Kernel, Simd, Weighted};
+use crate::engine::{Columns, Kernel, PatchDistance, Simd, Weighted};
 
 /// Everything for one block of offsets.
 pub(super) struct Step<'t, 'a> {
@@ -19,6 +19,8 @@ pub(super) struct Step<'t, 'a> {
     pub offsets: &'t Offsets,
     /// One of [`JOINT`], [`SEPARATE`], [`SINGLE`].
     pub rule: usize,
+    /// Whether the vertical patch sums are there already, see [`CubeColumns`].
+    pub summed: bool,
 }
 
 impl Kernel for Step<'_, '_> {
@@ -37,14 +39,47 @@ impl Kernel for Step<'_, '_> {
     }
 }
 
+/// Vertical patch sums of one block where patches are cubes. Apart from [`Step`], whose code for squares stays as it is.
+pub(super) struct CubeColumns<'t, 'a> {
+    pub tile: &'t mut TileView<'a>,
+    pub offsets: &'t Offsets,
+    pub pairs: &'t [GuidePair],
+}
+
+impl Kernel for CubeColumns<'_, '_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        let Some(guide) = self.tile.guide else { return };
+        let distance = CubeDistance { guide, plane: self.tile.layout.guide.plane, pairs: self.pairs };
+        match self.tile.layout.patch {
+            0 => columns::<S, 0>(s, self.tile, self.offsets, &distance),
+            1 => columns::<S, 1>(s, self.tile, self.offsets, &distance),
+            2 => columns::<S, 2>(s, self.tile, self.offsets, &distance),
+            _ => columns::<S, 3>(s, self.tile, self.offsets, &distance),
+        }
+    }
+}
+
+#[inline(always)]
+fn columns<S: Simd, const PATCH: usize>(
+    s: S,
+    tile: &mut TileView<'_>,
+    offsets: &Offsets,
+    distance: &impl PatchDistance<S>,
+) {
+    let walk = Columns { guide: tile.layout.guide, sums: tile.layout.columns, radii: 0, width: tile.width };
+    let (taps, block) = (Weighted(tile.taps), &offsets.block);
+    walk.sum::<S, PATCH, PATCH>(s, (distance, &taps), tile.columns, block, block.count);
+}
+
 impl Step<'_, '_> {
     #[inline(always)]
     fn guided<S: Simd, const PATCH: usize>(self, s: S, distance: GuideDistance<'_>) {
-        let (tile, block) = (&mut *self.tile, &self.offsets.block);
-        let (guide, sums) = (tile.layout.guide, tile.layout.columns);
-        let walk = Columns { guide, sums, radii: 0, width: tile.width };
-        let taps = Weighted(tile.taps);
-        walk.sum::<S, PATCH, PATCH>(s, (&distance, &taps), tile.columns, block, block.count);
+        if !self.summed {
+            columns::<S, PATCH>(s, self.tile, self.offsets, &distance);
+        }
         self.ruled::<S, PATCH, true>(s);
     }
 

@@ -16,9 +16,10 @@ pub(in crate::flash_filter) struct TileView<'a> {
     pub layout: &'a Layout,
     /// Valid pixels of the tile, from its first.
     pub width: usize,
-    /// Three planes of source values, and for [`SINGLE`] a fourth with the tested values.
+    /// Three planes of source values, and for [`SINGLE`] a fourth with the tested values. The target's; those of other frames
+    /// follow at multiples of [`Layout::frame`], here as in `factor` and `carried`.
     pub source: &'a Plane,
-    /// Three guide planes.
+    /// Three guide planes for each frame.
     pub guide: Option<&'a Plane>,
     /// Half-widths of the tests: one plane for [`SINGLE`], else three.
     pub half_width: &'a Plane,
@@ -38,9 +39,22 @@ pub(in crate::flash_filter) struct TileView<'a> {
     pub taps: [f32; MAX_PATCH_RADIUS + 1],
 }
 
-/// A block of at most [`BLOCK`] offsets with their spatial weights.
+/// Two guides that are compared: one frame of a pixel's patch and one of its neighbour's.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::flash_filter) struct GuidePair {
+    /// Where the guide planes of the pixel's frame start, in values.
+    pub here: usize,
+    /// The same of the neighbour's frame.
+    pub there: usize,
+    /// Share in the distance.
+    pub weight: f32,
+}
+
+/// A block of at most [`BLOCK`] offsets to one frame, with their spatial weights.
 pub(in crate::flash_filter) struct Offsets {
     pub block: Block,
+    /// Values from the target's copies to those of the neighbours' frame.
+    pub frame: usize,
     /// For each offset, with a guide: the spatial weight's exponent of 2. Without: the weight itself.
     pub spatial: [f32; BLOCK],
 }

@@ -13,7 +13,7 @@ pub(super) fn accumulate<S: Simd, const PATCH: usize, const RULE: usize, const G
 ) {
     let Layout { source, pixel, columns, .. } = *tile.layout;
     let block = &offsets.block;
-    let shift = block.dy * source.pitch as isize + block.dx;
+    let shift = offsets.frame as isize + block.dy * source.pitch as isize + block.dx;
     let (taps, count) = (Weighted(tile.taps), block.count.min(BLOCK));
     let lowest = s.splat(-126.0);
     for y in block.rows.clone() {
@@ -110,7 +110,8 @@ fn weigh<S: Simd, const GUIDED: bool>(s: S, member: S::M, weight: S::F, scale: S
     if GUIDED { s.keep_scaled(member, weight, scale) } else { s.keep(member, weight) }
 }
 
-/// Adds one offset to the sum of a carried plane; `here` is a pixel of the tile, `there` its neighbour on the source's grid.
+/// Adds one offset to the sum of a carried plane; `here` is a pixel of the tile, `there` its neighbour on the source's grid
+/// and in its frame.
 ///
 /// The sum stays in memory: passes that carry nothing, the costly ones, keep their registers, and one form of
 /// [`accumulate`] serves both.

@@ -3,6 +3,7 @@
 mod bits;
 mod carried;
 mod hard_cases;
+mod neighbors;
 mod oracle;
 mod properties;
 mod sets;
@@ -106,6 +107,8 @@ impl Case {
                 planes: planes.each_ref().map(Vec::as_slice),
                 sigma_r2: noise,
             }),
+            before: &[],
+            after: &[],
         }
     }
 
