@@ -51,6 +51,27 @@ fn any_tile_size_gives_the_same_bits() {
     }
 }
 
+/// One pixel, less than a vector, less than a patch, just below and above a tile, several tiles.
+const SIZES: [(usize, usize); 10] =
+    [(1, 1), (1, 9), (2, 3), (7, 1), (15, 16), (16, 17), (17, 5), (63, 15), (65, 17), (67, 45)];
+
+#[test]
+fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads() {
+    for (width, height) in SIZES {
+        let case = Case::random(width, height, 5, 2, Rule::Joint);
+        let run = |level, threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            bits(&pool.install(|| case.filter_at(level)))
+        };
+        let expected = run(InstructionSet::Portable, 1);
+        for level in levels() {
+            for threads in [1, 3] {
+                assert!(run(level, threads) == expected, "{width}x{height}, {level}, {threads} threads");
+            }
+        }
+    }
+}
+
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let case = Case::random(150, 70, 3, 2, Rule::PerChannel);

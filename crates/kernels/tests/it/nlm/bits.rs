@@ -48,6 +48,31 @@ fn every_instruction_set_gives_the_same_bits() {
     }
 }
 
+/// One pixel, less than a vector, less than a patch, just below and above a tile, several tiles.
+const SIZES: [(usize, usize); 10] =
+    [(1, 1), (1, 9), (2, 3), (7, 1), (15, 16), (16, 17), (17, 5), (63, 31), (65, 33), (67, 45)];
+
+#[test]
+fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads() {
+    for (width, height) in SIZES {
+        let featured = Case::random(width, height, 4, &candidates(true), &[3, 1]).with_step(Rule::Exact);
+        let alone = Case::random(width, height, 6, &candidates(false), &[]);
+        for case in [featured, alone] {
+            let run = |level, threads| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+                let inputs = case.inputs();
+                bits(&pool.install(|| filter_at(&case.params, &case.passes, &inputs, level)).unwrap())
+            };
+            let expected = run(InstructionSet::Portable, 1);
+            for level in InstructionSet::ALL.into_iter().filter(|level| level.is_available()) {
+                for threads in [1, 3] {
+                    assert!(run(level, threads) == expected, "{width}x{height}, {level}, {threads} threads");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
     for case in cases() {
