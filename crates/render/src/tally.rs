@@ -18,7 +18,7 @@ pub struct Tally {
 #[derive(Debug, Clone, Default)]
 struct Group {
     leaf: Moments<LANES>,
-    tree: BlockTree<LANES>,
+    tree: BlockTree<Moments<LANES>>,
     /// Appended ranges that do not fit into the tree.
     loose: Option<Box<Moments<LANES>>>,
     sums: [[f64; LANES]; 2],
