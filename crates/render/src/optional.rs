@@ -12,6 +12,10 @@ use crate::columns::COLOR;
 use crate::{RenderError, RenderRequest};
 
 /// Optional statistics of the colour to record; nothing by default, which costs nothing. They change no sample.
+///
+/// A statistic takes about 10 to 100 ns per sample, most where it needs logarithms. Frames made of rounds or of appended
+/// ranges have the statistics of one run: bit for bit where means and variances do (see [`crate::Rounds::append`]), else
+/// to the rounding of `f64`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct OptionalRecord {
     /// Statistics, each once. Every pixel needs as many samples as [`noisefloor_frame::Row::least`] says, in the first

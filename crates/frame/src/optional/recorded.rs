@@ -4,8 +4,11 @@ use super::statistic::{BoxCox, Statistic};
 use super::tap::Tapped;
 use crate::{Counts, FrameError, Image};
 
-/// Optional statistics of a frame's colour, each an image of 3 channels. Empty unless they were asked for; not kept in
-/// files.
+/// Optional statistics of a frame's colour, each an image of 3 channels. Empty unless they were asked for.
+///
+/// They are of the samples as they were taken: whoever scales or mends the colour of a frame does not change them.
+/// Values beyond the range of `f32`, such as the third moment of samples around 10¹³, are infinite. Files do not keep
+/// them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Optional {
     recorded: Vec<(Statistic, Vec<Image>)>,
