@@ -104,4 +104,24 @@ pub enum FrameError {
         /// Smallest number.
         least: usize,
     },
+    /// A parameter beyond its range.
+    #[error("{parameter} is {value}, expected {least} to {greatest}")]
+    Parameter {
+        /// What it is.
+        parameter: &'static str,
+        /// What was given.
+        value: f64,
+        /// Smallest value allowed.
+        least: f64,
+        /// Largest value allowed.
+        greatest: f64,
+    },
+    /// Something about an optional statistic does not fit.
+    #[error("optional statistic `{id}`: {problem}")]
+    Optional {
+        /// Its id, or `tap`.
+        id: &'static str,
+        /// What is wrong.
+        problem: String,
+    },
 }

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{Estimate, FeatureId, FrameError, Image, Provenance, Samples};
+use crate::{Estimate, FeatureId, FrameError, Image, Optional, Provenance, Samples};
 
 /// What the sample variance means.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -54,6 +54,8 @@ pub struct Frame {
     pub features: BTreeMap<FeatureId, Estimate>,
     /// Virtual flash image.
     pub flash: Option<Flash>,
+    /// Further statistics of the colour's samples, only where they were asked for.
+    pub optional: Optional,
     /// Samples per pixel.
     pub samples: Samples,
     /// Kind of sampling.
@@ -70,6 +72,7 @@ impl Frame {
             color,
             features: BTreeMap::new(),
             flash: None,
+            optional: Optional::default(),
             samples,
             sampling,
             provenance: Provenance::default(),
@@ -129,6 +132,7 @@ impl Frame {
             }
             None => {}
         }
+        self.optional.check(w, h)?;
         for (what, counts) in [("samples", self.samples.total()), ("samples.halfA", self.samples.half_a())] {
             if let crate::Counts::PerPixel(map) = counts
                 && map.len() != w * h
@@ -167,6 +171,7 @@ impl Frame {
                 },
                 Flash::Ready(flash) => Flash::Ready(cut(flash)),
             }),
+            optional: self.optional.crop([x, y], [width, height], cut_counts),
             samples,
             sampling: self.sampling,
             provenance: self.provenance.clone(),

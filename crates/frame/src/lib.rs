@@ -21,6 +21,7 @@ mod hygiene;
 mod image;
 mod inspect;
 mod integrator;
+mod optional;
 mod photons;
 mod provenance;
 mod reference;
@@ -38,9 +39,13 @@ pub use hygiene::{Hygiene, MOST_UNKNOWN};
 pub use image::{Image, luminance};
 pub use inspect::Fidelity;
 pub use integrator::Integrator;
+pub use optional::{
+    Block, BoxCox, BoxCoxMoments, FourParts, Gathered, Gathering, Optional, Row, Statistic,
+    TABLE as OPTIONAL_STATISTICS, Tapped, TappedSample,
+};
 pub use photons::{Maps, PhotonSettings};
 pub use provenance::{Camera, PixelFilter, Provenance, RoundsTaken};
 pub use reference::{Reference, SquaredError};
-pub use running::{BLOCK_SAMPLES, BlockTree, Moments};
+pub use running::{BLOCK_SAMPLES, BlockTree, Moments, Partial};
 pub use samples::{Counts, Samples};
 pub use unit_range::{Far, UnitRange};

@@ -98,24 +98,37 @@ impl<const C: usize> Moments<C> {
     }
 }
 
+/// What some samples come to, so that two disjoint sets of samples can be put together.
+pub trait Partial: Clone + Default {
+    /// Adds everything the other has seen. Neutral element: the default.
+    fn merge(&mut self, other: &Self);
+}
+
+impl<const C: usize> Partial for Moments<C> {
+    #[inline]
+    fn merge(&mut self, other: &Self) {
+        Moments::merge(self, other);
+    }
+}
+
 /// Merges leaves of [`BLOCK_SAMPLES`] samples in a fixed binary tree, like the carries of a binary counter.
 ///
 /// The result depends only on the sequence of leaves: any aligned run of 2^k leaves, accumulated elsewhere and
 /// pushed with [`BlockTree::push_subtree`], gives the same bits as pushing the leaves one by one.
 #[derive(Debug, Clone)]
-pub struct BlockTree<const C: usize> {
+pub struct BlockTree<S> {
     /// Subtree of 2^k leaves at index k, if bit k of `leaves` is set.
-    levels: Vec<Moments<C>>,
+    levels: Vec<S>,
     leaves: u64,
 }
 
-impl<const C: usize> Default for BlockTree<C> {
+impl<S> Default for BlockTree<S> {
     fn default() -> Self {
         Self { levels: Vec::new(), leaves: 0 }
     }
 }
 
-impl<const C: usize> BlockTree<C> {
+impl<S: Partial> BlockTree<S> {
     /// Forgets everything, keeping the allocation.
     pub fn clear(&mut self) {
         self.leaves = 0;
@@ -123,7 +136,7 @@ impl<const C: usize> BlockTree<C> {
 
     /// Adds the next leaf.
     #[inline]
-    pub fn push(&mut self, leaf: Moments<C>) {
+    pub fn push(&mut self, leaf: S) {
         self.push_subtree(leaf, 0);
     }
 
@@ -131,17 +144,17 @@ impl<const C: usize> BlockTree<C> {
     ///
     /// # Panics
     /// If the subtree is not aligned, because then the tree would not be the fixed one.
-    pub fn push_subtree(&mut self, mut subtree: Moments<C>, height: u32) {
+    pub fn push_subtree(&mut self, mut subtree: S, height: u32) {
         assert!(self.leaves.is_multiple_of(1 << height), "a subtree must start at a multiple of its size");
         let mut level = height as usize;
         while self.leaves >> level & 1 == 1 {
-            let mut left = self.levels[level];
-            left.merge(&subtree);
-            subtree = left;
+            // What stays behind is not used again.
+            self.levels[level].merge(&subtree);
+            std::mem::swap(&mut self.levels[level], &mut subtree);
             level += 1;
         }
         if self.levels.len() <= level {
-            self.levels.resize(level + 1, Moments::default());
+            self.levels.resize_with(level + 1, S::default);
         }
         self.levels[level] = subtree;
         self.leaves += 1 << height;
@@ -155,25 +168,25 @@ impl<const C: usize> BlockTree<C> {
             return false;
         }
         for level in heights {
-            self.push_subtree(next.levels[level], level as u32);
+            self.push_subtree(next.levels[level].clone(), level as u32);
         }
         true
     }
 
     /// Everything pushed so far, smallest subtrees merged first.
     #[must_use]
-    pub fn total(&self) -> Moments<C> {
-        self.total_with(Moments::default())
+    pub fn total(&self) -> S {
+        self.total_with(S::default())
     }
 
     /// The same with one more leaf, which may be empty and stays outside: what pushing it first would give, bit for
     /// bit.
     #[must_use]
-    pub fn total_with(&self, last: Moments<C>) -> Moments<C> {
+    pub fn total_with(&self, last: S) -> S {
         let mut total = last;
         for (level, subtree) in self.levels.iter().enumerate() {
             if self.leaves >> level & 1 == 1 {
-                let mut left = *subtree;
+                let mut left = subtree.clone();
                 left.merge(&total);
                 total = left;
             }

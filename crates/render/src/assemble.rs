@@ -8,11 +8,12 @@ use crate::Keep;
 use crate::plan::Plan;
 use crate::table::Joined;
 
-/// Puts the images of a plan's sheet together into `frame`, whose colour is replaced.
+/// Puts the images of a plan together into `frame`, whose colour is replaced. Those of optional statistics, which come
+/// last, are left.
 pub fn fill(
     plan: &Plan,
     frame: &mut Frame,
-    mut images: impl Iterator<Item = Vec<f32>>,
+    images: &mut impl Iterator<Item = Vec<f32>>,
 ) -> Result<(), FrameError> {
     let (width, height) = (frame.width(), frame.height());
     let mut image =

@@ -47,10 +47,7 @@ impl Eye {
     /// Origin and unit direction of a ray through pixel `(x, y)`; `u` places it in the pixel and on the lens.
     #[inline]
     pub fn ray(&self, x: usize, y: usize, u: [f32; 4]) -> (Vec3A, Vec3A) {
-        let (dx, dy) = match self.filter {
-            PixelFilter::Box => (u[0], u[1]),
-            PixelFilter::Point => (0.5, 0.5),
-        };
+        let [dx, dy] = self.place(u);
         let sx = (2.0 * ((x as f32 + dx) / self.size[0]) - 1.0) * self.half[0];
         let sy = (1.0 - 2.0 * ((y as f32 + dy) / self.size[1])) * self.half[1];
         let through = self.forward + self.right * sx + self.up * sy;
@@ -61,6 +58,15 @@ impl Eye {
                 let offset = (self.right * a + self.up * b) * lens.radius;
                 (self.position + offset, (through * lens.focus_distance - offset).normalize())
             }
+        }
+    }
+
+    /// Where in its pixel such a ray goes through the image, right and down, in 0..1.
+    #[inline(always)]
+    pub fn place(&self, u: [f32; 4]) -> [f32; 2] {
+        match self.filter {
+            PixelFilter::Box => [u[0], u[1]],
+            PixelFilter::Point => [0.5, 0.5],
         }
     }
 

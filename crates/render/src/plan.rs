@@ -1,6 +1,7 @@
 //! From a request to the values of a pixel and to the planes that are kept.
 
 use crate::columns::{COLOR, Column, Columns};
+use crate::optional::OptionalPlan;
 use crate::table::Joined;
 use crate::tally::{Summary, Tally};
 use crate::{Integrator, Keep, Quantity, Recorded, RenderError, RenderRequest};
@@ -16,8 +17,11 @@ pub struct Plan {
     pub extras: bool,
     /// Planes of each image that a frame is put together from, in order.
     pub images: Vec<usize>,
-    /// For each plane the value that it has: of those of a [`Summary`], or behind them of those derived from it.
+    /// For each plane the value that it has: of those of a [`Summary`], behind them of those derived from it, then of
+    /// optional statistics.
     sources: Vec<usize>,
+    /// Optional statistics, if some are asked for.
+    pub optional: Option<OptionalPlan>,
     derived: Vec<Derived>,
 }
 
@@ -78,7 +82,8 @@ impl Plan {
             || !scene.bodies.is_empty();
         let columns = Columns::new(&kept);
         let (images, sources, derived) = (Vec::new(), Vec::new(), Vec::new());
-        let mut plan = Self { columns, color: limit, extras, images, sources, derived };
+        let optional = OptionalPlan::new(request);
+        let mut plan = Self { columns, color: limit, extras, images, sources, optional, derived };
         plan.lay_out();
         Ok(plan)
     }
@@ -115,6 +120,21 @@ impl Plan {
                 }
             }
         }
+        // Last: they lie behind all that is derived.
+        let first = self.behind() + self.derived.len();
+        for image in 0..self.optional_images() {
+            self.image(first + image * COLOR..first + (image + 1) * COLOR);
+        }
+    }
+
+    /// Index behind the last value of a summary that a tally gives.
+    fn behind(&self) -> usize {
+        3 * self.columns.accumulated + self.columns.all
+    }
+
+    /// Images of optional statistics, which come last.
+    fn optional_images(&self) -> usize {
+        self.optional.as_ref().map_or(0, OptionalPlan::images)
     }
 
     /// Adds an image of these values.
@@ -126,11 +146,9 @@ impl Plan {
 
     /// Adds an image of values that are made of others.
     fn derive(&mut self, derived: impl IntoIterator<Item = Derived>) {
-        let Columns { accumulated, all, .. } = self.columns;
         let before = self.derived.len();
         self.derived.extend(derived);
-        let summary = 3 * accumulated + all;
-        self.image(summary + before..summary + self.derived.len());
+        self.image(self.behind() + before..self.behind() + self.derived.len());
     }
 
     /// Adds what is kept of some values: four images at most.
@@ -149,12 +167,14 @@ impl Plan {
 
     /// A tally of what is recorded.
     pub fn tally(&self) -> Tally {
-        Tally::new(self.columns.accumulated, self.columns.all)
+        let optional = self.optional.as_ref().map(OptionalPlan::pixel);
+        Tally::new(self.columns.accumulated, self.columns.all, optional)
     }
 
     /// Room for what such a tally comes to.
     pub fn summary(&self) -> Summary {
-        Summary::new(self.columns.accumulated, self.columns.all, self.derived.len())
+        let more = self.derived.len() + self.optional_images() * COLOR;
+        Summary::new(self.columns.accumulated, self.columns.all, more)
     }
 
     /// The means of a tally, and what its first sample had: a sample like those that it has seen.
@@ -169,8 +189,8 @@ impl Plan {
     #[inline]
     pub fn write<'a>(&self, tally: &Tally, summary: &mut Summary, planes: impl Iterator<Item = &'a mut f32>) {
         tally.summarise(summary);
-        let behind = summary.values.len() - self.derived.len();
-        let (values, derived) = summary.values.split_at_mut(behind);
+        let (values, more) = summary.values.split_at_mut(self.behind());
+        let (derived, optional) = more.split_at_mut(self.derived.len());
         for (out, source) in derived.iter_mut().zip(&self.derived) {
             *out = match *source {
                 Derived::Ratio(a, b) => ratio(values[a], values[b]),
@@ -178,6 +198,9 @@ impl Plan {
                 // Polarisation: the f64 rounding of the variances is far below any covariance that matters.
                 Derived::Covariance([a, b, sum]) => 0.5 * (values[sum] - values[a] - values[b]),
             };
+        }
+        if let Some(pixel) = tally.optional() {
+            pixel.finish(optional);
         }
         for (out, source) in planes.zip(&self.sources) {
             *out = summary.values[*source] as f32;

@@ -8,13 +8,14 @@ use crate::assemble::fill;
 use crate::columns::COLOR;
 use crate::film::{Extent, develop};
 use crate::limits::LONGEST_SEQUENCE;
+use crate::optional::{OptionalTally, Taps, put};
 use crate::plan::Plan;
 use crate::planes::Planes;
 use crate::provenance::provenance;
 use crate::shot::{Shot, Totals};
 use crate::tally::{Summary, Tally};
 use crate::worker::{Worker, worker};
-use crate::{Keep, Progress, RenderError, RenderRequest};
+use crate::{Keep, OptionalRecord, Progress, RenderError, RenderRequest};
 
 /// Renders a frame on the threads of the current rayon pool. The result is the same, bit for bit, for any number of them.
 ///
@@ -33,20 +34,26 @@ pub fn render(request: &RenderRequest<'_>, progress: &dyn Progress) -> Result<Fr
     let start = Instant::now();
     let counts = Totals::default();
     let shot = Shot::new(request, &plan, &counts);
-    let planes = frame_planes(&shot, progress)?;
+    let taps = Taps::default();
+    let mut images = frame_planes(&shot, &taps, progress)?.into_images();
     counts.check(request)?;
     let even = |end: u32| end.div_ceil(2);
     let end = request.sample_start + request.spp; // checked above
     let samples =
         Samples::uniform(request.spp).with_half_a(Counts::Uniform(even(end) - even(request.sample_start)));
     let mut frame = blank(request, samples, request.sampling);
-    fill(&plan, &mut frame, planes.into_images())?;
+    fill(&plan, &mut frame, &mut images)?;
+    if let Some(wanted) = &plan.optional {
+        let tapped = taps.into_tapped(request.width, request.sample_start);
+        put(wanted, &mut frame, images, request.sample_start, &[end], tapped)?;
+    }
     frame.provenance = provenance(request, request.sampling, start.elapsed().as_secs_f64(), &counts);
     Ok(frame)
 }
 
 /// Renders a reference: `request.spp` samples in all, split over `parts` separately randomised low-discrepancy sequences,
-/// whatever `request.sampling` says. Of the recorded quantities only the means are kept.
+/// whatever `request.sampling` says. Of the recorded quantities only the means are kept, and no
+/// optional statistics.
 ///
 /// # Errors
 /// Like [`render`]; [`RenderError::InvalidRequest`] also if there are fewer than [`Reference::LEAST_PARTS`] parts, if
@@ -56,7 +63,8 @@ pub fn render_reference(
     parts: u32,
     progress: &dyn Progress,
 ) -> Result<Reference, RenderError> {
-    let request = &RenderRequest { sampling: Sampling::Independent, ..request.clone() };
+    let optional = OptionalRecord::default();
+    let request = &RenderRequest { sampling: Sampling::Independent, optional, ..request.clone() };
     request.check()?;
     let wrong = |parameter, value: u32, expected: String| {
         Err(RenderError::InvalidRequest { parameter, value: value.to_string(), expected })
@@ -86,7 +94,7 @@ pub fn render_reference(
         .collect::<Result<Vec<_>, _>>()?;
     let mut reference = Reference::from_parts(images, request.spp / parts, Sampling::LowDiscrepancy)?;
     let mut recorded = blank(request, Samples::uniform(request.spp), Sampling::LowDiscrepancy);
-    fill(&plan, &mut recorded, planes)?;
+    fill(&plan, &mut recorded, &mut planes)?;
     reference.frame.features = recorded.features;
     reference.frame.flash = recorded.flash;
     reference.frame.provenance =
@@ -113,7 +121,7 @@ impl<'a> Scratch<'a> {
     }
 }
 
-fn frame_planes(shot: &Shot<'_>, progress: &dyn Progress) -> Result<Planes, RenderError> {
+fn frame_planes(shot: &Shot<'_>, taps: &Taps, progress: &dyn Progress) -> Result<Planes, RenderError> {
     let Shot { request, plan, .. } = shot;
     let range = request.sample_start..request.sample_start + request.spp;
     let extent = Extent { width: request.width, height: request.height, samples: request.spp };
@@ -122,6 +130,9 @@ fn frame_planes(shot: &Shot<'_>, progress: &dyn Progress) -> Result<Planes, Rend
         let Scratch { worker, tally, summary } = scratch;
         tally.clear();
         worker.add(tally, pixel, None, range.clone());
+        if plan.optional.as_ref().is_some_and(|wanted| wanted.taps(pixel)) {
+            taps.put(pixel, tally.optional().map_or(&[], OptionalTally::tapped));
+        }
         plan.write(tally, summary, strip.pixel(at));
     })
 }

@@ -3,7 +3,7 @@
 use noisefloor_frame::{PixelFilter, Sampling};
 
 use crate::limits::{DEEPEST, LONGEST_SEQUENCE, MAX_MEMORY, check_size};
-use crate::{FeatureHit, Integrator, PhotonMaps, Prepared, Recorded, RenderError};
+use crate::{FeatureHit, Integrator, OptionalRecord, PhotonMaps, Prepared, Recorded, RenderError};
 
 /// Raised whenever equal requests start to give other values: caches of frames should depend on it.
 pub const REVISION: u32 = 3;
@@ -72,6 +72,8 @@ pub struct RenderRequest<'a> {
     pub sampling: Sampling,
     /// What to record beside the colour.
     pub record: Recorded,
+    /// Statistics of the colour to record beyond mean, variance and halves; none unless asked for.
+    pub optional: OptionalRecord,
     /// Where along a path the features are taken.
     pub feature_hit: FeatureHit,
     /// How light is carried; photon mapping needs `photons`.
@@ -97,6 +99,7 @@ impl<'a> RenderRequest<'a> {
             filter: PixelFilter::Box,
             sampling: Sampling::Independent,
             record: Recorded::Available,
+            optional: OptionalRecord::default(),
             feature_hit: FeatureHit::First,
             integrator: Integrator::PathTracing,
             photons: None,
@@ -144,7 +147,7 @@ impl<'a> RenderRequest<'a> {
             }
             _ => {}
         }
-        Ok(())
+        self.optional.check(self)
     }
 }
 

@@ -8,6 +8,7 @@ use rayon::slice::{ParallelSlice, ParallelSliceMut};
 
 use crate::assemble::fill;
 use crate::limits::LONGEST_SEQUENCE;
+use crate::optional::{OptionalPlan, OptionalTally, Taps, put};
 use crate::plan::Plan;
 use crate::planes::{BYTES_PER_VALUE, Planes, Strip};
 use crate::provenance::provenance;
@@ -27,8 +28,8 @@ const PIECE: usize = 64;
 /// number of samples carry a map of it. A density that was made from the samples themselves biases their mean; this
 /// type does not know where its numbers come from.
 ///
-/// A pixel takes 232 bytes for the colour alone and 1116 with features and flash (1468 with all there is), and 72 to
-/// 576 more for every doubling of its samples beyond 16.
+/// A pixel takes 240 bytes for the colour alone and 1124 with features and flash (1476 with all there is), and 72 to
+/// 576 more for every doubling of its samples beyond 16; optional statistics take more, tapped samples 20 bytes each.
 #[derive(Debug)]
 pub struct Rounds<'a> {
     request: RenderRequest<'a>,
@@ -58,7 +59,8 @@ impl<'a> Rounds<'a> {
         }
         let plan = Plan::new(request, Keep::ALL)?;
         // Beside the frame that they end in, in units of what it takes per value.
-        let pixel = (size_of::<Pixel>() + plan.tally().bytes()).div_ceil(BYTES_PER_VALUE as usize);
+        let optional = plan.optional.as_ref().map_or(0, OptionalPlan::bytes);
+        let pixel = (size_of::<Pixel>() + plan.tally().bytes() + optional).div_ceil(BYTES_PER_VALUE as usize);
         request.check_memory(plan.planes() + pixel)?;
         let count = request.width * request.height;
         let pixels = vec![Pixel { tally: plan.tally(), end: request.sample_start }; count];
@@ -118,13 +120,14 @@ impl<'a> Rounds<'a> {
             && (a.width, a.height, a.seed, a.depth) == (b.width, b.height, b.seed, b.depth)
             && (a.filter, a.sampling) == (b.filter, b.sampling)
             && (&a.record, a.feature_hit, a.integrator) == (&b.record, b.feature_hit, b.integrator)
+            && a.optional == b.optional
             && match (a.photons, b.photons) {
                 (None, None) => true,
                 (Some(a), Some(b)) => std::ptr::eq(a, b),
                 _ => false,
             };
         if !same {
-            let expected = "the same scene, size, random seed, depth, filter, sampling, integrator, photon maps and record".to_owned();
+            let expected = "the same scene, size, random seed, depth, filter, sampling, integrator, photon maps, record and optional statistics".to_owned();
             return Err(wrong("range", "of another request".into(), expected));
         }
         let start = b.sample_start;
@@ -172,7 +175,16 @@ impl<'a> Rounds<'a> {
             planes.write(&strip, piece * PIECE, pixels.len());
         }
         let mut frame = blank(request, samples, request.sampling);
-        fill(&self.plan, &mut frame, planes.into_images())?;
+        let mut images = planes.into_images();
+        fill(&self.plan, &mut frame, &mut images)?;
+        if let Some(wanted) = &self.plan.optional {
+            let taps = Taps::default();
+            for (at, pixel) in self.pixels.iter().enumerate().filter(|(at, _)| wanted.taps(*at)) {
+                taps.put(at, pixel.tally.optional().map_or(&[], OptionalTally::tapped));
+            }
+            let tapped = taps.into_tapped(request.width, first);
+            put(wanted, &mut frame, images, first, &self.ends(), tapped)?;
+        }
         frame.provenance = provenance(request, request.sampling, self.seconds, &self.counts);
         frame.provenance.extra.insert("rounds".into(), self.rounds.to_string());
         Ok(frame)

@@ -2,6 +2,8 @@
 
 use noisefloor_frame::{BLOCK_SAMPLES, BlockTree, Moments};
 
+use crate::optional::OptionalTally;
+
 /// Values that are accumulated side by side.
 pub const LANES: usize = 4;
 
@@ -12,13 +14,15 @@ pub struct Tally {
     groups: Vec<Group>,
     counts: [u32; 2],
     first: Box<[f32]>,
+    /// Optional statistics, if some are asked for.
+    optional: Option<Box<OptionalTally>>,
 }
 
 /// Of [`LANES`] values.
 #[derive(Debug, Clone, Default)]
 struct Group {
     leaf: Moments<LANES>,
-    tree: BlockTree<LANES>,
+    tree: BlockTree<Moments<LANES>>,
     /// Appended ranges that do not fit into the tree.
     loose: Option<Box<Moments<LANES>>>,
     sums: [[f64; LANES]; 2],
@@ -37,12 +41,25 @@ pub struct Summary {
 
 impl Tally {
     /// Nothing seen yet of samples with `all` values, of which the first `accumulated` are, a multiple of [`LANES`].
-    pub fn new(accumulated: usize, all: usize) -> Self {
+    pub fn new(accumulated: usize, all: usize, optional: Option<OptionalTally>) -> Self {
         let groups = vec![Group::default(); accumulated / LANES];
-        Self { groups, counts: [0; 2], first: vec![0.0; all - accumulated].into() }
+        let (first, optional) = (vec![0.0; all - accumulated].into(), optional.map(Box::new));
+        Self { groups, counts: [0; 2], first, optional }
     }
 
-    /// Bytes that it takes on the heap, for up to 256 samples.
+    /// Optional statistics, if some are asked for.
+    #[inline]
+    pub fn optional(&self) -> Option<&OptionalTally> {
+        self.optional.as_deref()
+    }
+
+    /// The same, to add to: samples go there beside [`Tally::extend`].
+    #[inline]
+    pub fn optional_mut(&mut self) -> Option<&mut OptionalTally> {
+        self.optional.as_deref_mut()
+    }
+
+    /// Bytes that it takes on the heap apart from optional statistics, for up to 256 samples.
     pub fn bytes(&self) -> usize {
         // Subtrees of 1, 2, 4 and 8 blocks.
         let group = size_of::<Group>() + 4 * size_of::<Moments<LANES>>();
@@ -58,6 +75,9 @@ impl Tally {
             group.sums = [[0.0; LANES]; 2];
         }
         self.counts = [0; 2];
+        if let Some(optional) = &mut self.optional {
+            optional.clear();
+        }
     }
 
     /// Adds samples of consecutive indices from `index` on, all of one block: blocks end where the next index is a
@@ -121,6 +141,9 @@ impl Tally {
         }
         for (count, more) in self.counts.iter_mut().zip(next.counts) {
             *count += more;
+        }
+        if let (Some(optional), Some(next)) = (&mut self.optional, &next.optional) {
+            optional.append(next);
         }
     }
 }

@@ -3,13 +3,14 @@
 use std::ops::Range;
 
 use glam::Vec4;
-use noisefloor_frame::{BLOCK_SAMPLES, Sampling};
+use noisefloor_frame::{BLOCK_SAMPLES, Block, Sampling};
 
 use crate::FeatureHit;
 use crate::bvh::Ray;
 use crate::columns::COLOR;
 use crate::intersect::Traversal;
 use crate::limits::DEEPEST;
+use crate::optional::{OptionalTally, Positions};
 use crate::path::trace;
 use crate::recorder::Recorder;
 use crate::recording::Recording;
@@ -116,6 +117,25 @@ impl<'a, R: Recorder, const EXTRAS: bool, N: Stream<'a>> Tracer<'a, R, EXTRAS, N
         }
         finite
     }
+
+    /// Adds the samples of a block to a pixel's optional statistics. Kept out of the way of those who want none.
+    #[cold]
+    #[inline(never)]
+    fn extend_optional(&self, optional: &mut OptionalTally, pixel: usize, numbers: &N, range: Range<u32>) {
+        let Shot { eye, plan, .. } = self.shot;
+        let Some(wanted) = &plan.optional else { return };
+        let mut positions = Positions::default();
+        if wanted.looks_at_positions(pixel) {
+            // Random numbers depend on the index alone, so those of the camera can be had again.
+            for (position, index) in positions.iter_mut().zip(range.clone()) {
+                *position = eye.place(numbers.sample(index).group(0));
+            }
+        }
+        let (stride, samples) = (plan.columns.all, range.len());
+        let (values, positions) = (&self.block[..samples * stride], &positions[..samples]);
+        let block = Block { first: range.start, values, stride, positions };
+        optional.extend(&block, wanted.taps(pixel));
+    }
 }
 
 impl<'a, R: Recorder, const EXTRAS: bool, N: Stream<'a>> Worker for Tracer<'a, R, EXTRAS, N> {
@@ -133,6 +153,9 @@ impl<'a, R: Recorder, const EXTRAS: bool, N: Stream<'a>> Worker for Tracer<'a, R
             }
             let samples = (end - start) as usize * shot.plan.columns.all;
             tally.extend(start, &self.block[..samples]);
+            if let Some(optional) = tally.optional_mut() {
+                self.extend_optional(optional, pixel, &numbers, start..end);
+            }
             start = end;
         }
         shot.counts.count(non_finite, self.traversal.take_rays());

@@ -1,6 +1,6 @@
 //! Hashes of results by their bits.
 
-use noisefloor_frame::{Counts, Estimate, Flash, Frame, Image};
+use noisefloor_frame::{Counts, Estimate, Flash, Frame, Image, Optional, Statistic, Tapped, TappedSample};
 
 use crate::Key;
 
@@ -75,7 +75,7 @@ impl Bits {
     /// Everything that a frame carries, apart from where it came from and how long that took.
     pub fn frame(&mut self, frame: &Frame) {
         // Without `..`: a new part of a frame must be thought of here.
-        let Frame { color, features, flash, samples, sampling, provenance: _ } = frame;
+        let Frame { color, features, flash, optional, samples, sampling, provenance: _ } = frame;
         self.estimate(color);
         self.number(features.len() as u64);
         for (id, estimate) in features {
@@ -95,9 +95,38 @@ impl Bits {
                 self.images(covariance);
             }
         }
+        // Nothing where nothing was asked for: hashes of such frames are those of before there was any.
+        if !optional.is_empty() {
+            self.optional(optional);
+        }
         self.counts(samples.total());
         self.counts(samples.half_a());
         self.text(sampling.name());
+    }
+
+    fn optional(&mut self, optional: &Optional) {
+        self.text("optional");
+        self.number(optional.recorded().len() as u64);
+        for (statistic, images) in optional.recorded() {
+            self.text(statistic.row().id);
+            if let Statistic::BoxCox(transform) = statistic {
+                self.number(transform.lambda().to_bits());
+                self.number(transform.floor().to_bits());
+            }
+            self.images(images);
+        }
+        if let Some(parts) = optional.four_parts() {
+            parts.samples.iter().for_each(|counts| self.counts(counts));
+        }
+        self.number(optional.tapped().len() as u64);
+        for Tapped { x, y, first, samples } in optional.tapped() {
+            for number in [*x as u64, *y as u64, u64::from(*first), samples.len() as u64] {
+                self.number(number);
+            }
+            for TappedSample { color, position } in samples {
+                color.iter().chain(position).for_each(|v| self.number(u64::from(v.to_bits())));
+            }
+        }
     }
 
     /// The hash in hexadecimal.
@@ -118,10 +147,19 @@ pub fn hash_of_frame(frame: &Frame) -> Key {
 mod tests {
     use std::collections::BTreeSet;
 
-    use noisefloor_frame::{Samples, Sampling, Variance};
+    use noisefloor_frame::{BoxCox, Samples, Sampling, Variance};
     use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
     use super::*;
+
+    /// With an optional statistic and a tapped pixel.
+    fn with_optional(value: f32, floor: f64, position: f32) -> Frame {
+        let moments = Statistic::BoxCox(BoxCox::new(0.5, floor).unwrap());
+        let images = vec![Image::filled(6, 5, 3, value); 3];
+        let samples = vec![TappedSample { color: [0.25; 3], position: [0.5, position] }];
+        let tapped = vec![Tapped { x: 2, y: 1, first: 0, samples }];
+        Frame { optional: Optional::new(vec![(moments, images)], None, tapped).unwrap(), ..probe() }
+    }
 
     fn probe() -> Frame {
         let law = SampleLaw::Gaussian { sd: 0.3, relative: false };
@@ -181,6 +219,8 @@ mod tests {
         counts[29] = 5;
         out.push(Frame { samples: Samples::per_pixel(counts), ..probe() });
         out.push(Frame { sampling: Sampling::LowDiscrepancy, ..probe() });
+        out.extend([with_optional(1.0, 1e-3, 0.5), with_optional(2.0, 1e-3, 0.5)]);
+        out.extend([with_optional(1.0, 1e-2, 0.5), with_optional(1.0, 1e-3, 0.25)]);
         // A plane that is not there is not one of zeros.
         let mut without = probe();
         without.color.halves = None;
