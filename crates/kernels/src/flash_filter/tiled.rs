@@ -1,6 +1,6 @@
 //! The fast form: prepares a tile, runs the inner loops over all offsets of the window, writes the result.
 
-use super::hot::{CubeColumns, GuidePair, JOINT, Offsets, SEPARATE, SINGLE, Step, TileView};
+use super::hot::{GuidePair, JOINT, Offsets, PatchColumns, SEPARATE, SINGLE, Step, TileView};
 use super::layout::{BLOCK, CARRIED, FACTOR, Layout, TESTED};
 use super::members::{EVERYTHING, Tests, half_width};
 use super::params::MAX_PATCH_RADIUS;
@@ -127,11 +127,10 @@ impl Job<'_> {
             let pairs = self.pairs(time);
             for block in (Window { width, height, reach: self.layout.reach }).blocks(tile, BLOCK) {
                 let offsets = self.offsets(block, time, place);
-                let summed = !pairs.is_empty();
-                if summed {
-                    self.level.launch(CubeColumns { tile: &mut view, offsets: &offsets, pairs: &pairs });
+                if guided {
+                    self.level.launch(PatchColumns { tile: &mut view, offsets: &offsets, pairs: &pairs });
                 }
-                self.level.launch(Step { tile: &mut view, offsets: &offsets, rule: self.rule, summed });
+                self.level.launch(Step { tile: &mut view, offsets: &offsets, rule: self.rule });
             }
         }
         self.finish(frames, sums, tile, out);

@@ -13,14 +13,56 @@ use self::distances::{CubeDistance, GuideDistance};
 use self::weigh::accumulate;
 use crate::engine::{Columns, Kernel, PatchDistance, Simd, Weighted};
 
-/// Everything for one block of offsets.
+/// Vertical patch sums of one block: of squares, or of cubes over several frames.
+pub(super) struct PatchColumns<'t, 'a> {
+    pub tile: &'t mut TileView<'a>,
+    pub offsets: &'t Offsets,
+    /// Frames that are compared; none for patches of the target alone.
+    pub pairs: &'t [GuidePair],
+}
+
+impl Kernel for PatchColumns<'_, '_> {
+    type Out = ();
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) {
+        match self.tile.layout.patch {
+            0 => self.radius::<S, 0>(s),
+            1 => self.radius::<S, 1>(s),
+            2 => self.radius::<S, 2>(s),
+            _ => self.radius::<S, 3>(s),
+        }
+    }
+}
+
+impl PatchColumns<'_, '_> {
+    #[inline(always)]
+    fn radius<S: Simd, const PATCH: usize>(self, s: S) {
+        let Some(guide) = self.tile.guide else { return };
+        let plane = self.tile.layout.guide.plane;
+        if self.pairs.is_empty() {
+            self.sum::<S, PATCH>(s, &GuideDistance { guide, plane });
+        } else {
+            let pairs = self.pairs;
+            self.sum::<S, PATCH>(s, &CubeDistance { guide, plane, pairs });
+        }
+    }
+
+    #[inline(always)]
+    fn sum<S: Simd, const PATCH: usize>(self, s: S, distance: &impl PatchDistance<S>) {
+        let Self { tile, offsets: Offsets { block, .. }, .. } = self;
+        let (guide, sums) = (tile.layout.guide, tile.layout.columns);
+        let walk = Columns { guide, sums, radii: 0, width: tile.width };
+        walk.sum::<S, PATCH, PATCH>(s, (distance, &Weighted(tile.taps)), tile.columns, block, block.count);
+    }
+}
+
+/// Weights and sums of one block, whose vertical patch sums are there.
 pub(super) struct Step<'t, 'a> {
     pub tile: &'t mut TileView<'a>,
     pub offsets: &'t Offsets,
     /// One of [`JOINT`], [`SEPARATE`], [`SINGLE`].
     pub rule: usize,
-    /// Whether the vertical patch sums are there already, see [`CubeColumns`].
-    pub summed: bool,
 }
 
 impl Kernel for Step<'_, '_> {
@@ -28,61 +70,17 @@ impl Kernel for Step<'_, '_> {
 
     #[inline(always)]
     fn run<S: Simd>(self, s: S) {
-        let Some(guide) = self.tile.guide else { return self.ruled::<S, 0, false>(s) };
-        let distance = GuideDistance { guide, plane: self.tile.layout.guide.plane };
-        match self.tile.layout.patch {
-            0 => self.guided::<S, 0>(s, distance),
-            1 => self.guided::<S, 1>(s, distance),
-            2 => self.guided::<S, 2>(s, distance),
-            _ => self.guided::<S, 3>(s, distance),
+        match (self.tile.guide.is_some(), self.tile.layout.patch) {
+            (false, _) => self.ruled::<S, 0, false>(s),
+            (true, 0) => self.ruled::<S, 0, true>(s),
+            (true, 1) => self.ruled::<S, 1, true>(s),
+            (true, 2) => self.ruled::<S, 2, true>(s),
+            (true, _) => self.ruled::<S, 3, true>(s),
         }
     }
-}
-
-/// Vertical patch sums of one block where patches are cubes. Apart from [`Step`], whose code for squares stays as it is.
-pub(super) struct CubeColumns<'t, 'a> {
-    pub tile: &'t mut TileView<'a>,
-    pub offsets: &'t Offsets,
-    pub pairs: &'t [GuidePair],
-}
-
-impl Kernel for CubeColumns<'_, '_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        let Some(guide) = self.tile.guide else { return };
-        let distance = CubeDistance { guide, plane: self.tile.layout.guide.plane, pairs: self.pairs };
-        match self.tile.layout.patch {
-            0 => columns::<S, 0>(s, self.tile, self.offsets, &distance),
-            1 => columns::<S, 1>(s, self.tile, self.offsets, &distance),
-            2 => columns::<S, 2>(s, self.tile, self.offsets, &distance),
-            _ => columns::<S, 3>(s, self.tile, self.offsets, &distance),
-        }
-    }
-}
-
-#[inline(always)]
-fn columns<S: Simd, const PATCH: usize>(
-    s: S,
-    tile: &mut TileView<'_>,
-    offsets: &Offsets,
-    distance: &impl PatchDistance<S>,
-) {
-    let walk = Columns { guide: tile.layout.guide, sums: tile.layout.columns, radii: 0, width: tile.width };
-    let (taps, block) = (Weighted(tile.taps), &offsets.block);
-    walk.sum::<S, PATCH, PATCH>(s, (distance, &taps), tile.columns, block, block.count);
 }
 
 impl Step<'_, '_> {
-    #[inline(always)]
-    fn guided<S: Simd, const PATCH: usize>(self, s: S, distance: GuideDistance<'_>) {
-        if !self.summed {
-            columns::<S, PATCH>(s, self.tile, self.offsets, &distance);
-        }
-        self.ruled::<S, PATCH, true>(s);
-    }
-
     #[inline(always)]
     fn ruled<S: Simd, const PATCH: usize, const GUIDED: bool>(self, s: S) {
         match self.rule {
