@@ -1,5 +1,5 @@
 //! Arrows between the files of a crate go down only: whoever uses a file is not used by it, directly or around. And no
-//! file lies in a crate that does not have it.
+//! file lies in a crate that does not have it. What is `unsafe` stands where it can be read at once.
 //!
 //! An arrow is a `use` of an item that another file of the same crate defines. That a file is declared by another (`mod`)
 //! is no arrow, nor is anything in tests. A name that a file only hands on (`pub use`) leads to where it comes from.
@@ -253,4 +253,24 @@ fn pages_and_records_do_without_the_renderer() {
     let mut of_report = BTreeSet::new();
     needs("report", &crates, &mut of_report);
     assert!(!of_report.contains("questions"), "the report knows a question");
+}
+
+#[test]
+fn unsafe_is_in_the_engine_and_where_its_planes_are_vouched_for() {
+    let source = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates/kernels/src");
+    let mut files = Files::new();
+    read(&source, &[], &mut files);
+    let word = |line: &&str| line.split(|c: char| !c.is_alphanumeric() && c != '_').any(|w| w == "unsafe");
+    let lines = |text: &str| text.lines().filter(word).count();
+    let found: Vec<(String, usize)> = files
+        .iter()
+        .map(|(module, text)| (module.join("::"), lines(text)))
+        .filter(|(_, count)| *count > 0)
+        .collect();
+    for (module, count) in &found {
+        let vouches = ["nlm::tiled", "flash_filter::tiled", "inside"].contains(&module.as_str());
+        assert!(module.starts_with("engine::") || vouches && *count == 1, "{count} lines of {module}");
+    }
+    let all: usize = found.iter().map(|(_, count)| count).sum();
+    assert!((1..=15).contains(&all), "{all} lines: {found:?}");
 }
