@@ -147,7 +147,7 @@ impl<'a> RenderRequest<'a> {
             }
             _ => {}
         }
-        self.optional.check(self)
+        self.optional.check((self.width, self.height), self.spp, self.sampling)
     }
 }
 

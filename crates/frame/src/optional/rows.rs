@@ -112,6 +112,21 @@ pub static TABLE: [Row; 6] = [
     },
 ];
 
+impl Statistic {
+    /// Its row of the table.
+    #[must_use]
+    pub fn row(self) -> &'static Row {
+        &TABLE[match self {
+            Self::ThirdMoment => 0,
+            Self::Least => 1,
+            Self::Greatest => 2,
+            Self::FourParts => 3,
+            Self::BoxCox(_) => 4,
+            Self::Position => 5,
+        }]
+    }
+}
+
 /// Pébay (2008), formulas 1.1 and 1.2 of the second and third order for one new sample.
 fn add_third(_: Statistic, kept: &mut [f64], run: &Run<'_>) {
     let [mean, squares, cubes] = kept else { return };

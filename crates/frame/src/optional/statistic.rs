@@ -1,6 +1,5 @@
 //! What can be asked for.
 
-use super::rows::{Row, TABLE};
 use crate::FrameError;
 
 /// A statistic of the samples of a pixel beyond mean, variance and halves, for each channel of the colour.
@@ -21,21 +20,6 @@ pub enum Statistic {
     /// Covariance of one sample with its position in the pixel, right and down, unbiased, in units of the colour times
     /// pixel widths.
     Position,
-}
-
-impl Statistic {
-    /// Its row of the table.
-    #[must_use]
-    pub fn row(self) -> &'static Row {
-        &TABLE[match self {
-            Self::ThirdMoment => 0,
-            Self::Least => 1,
-            Self::Greatest => 2,
-            Self::FourParts => 3,
-            Self::BoxCox(_) => 4,
-            Self::Position => 5,
-        }]
-    }
 }
 
 /// The transform g(x) = (x^λ − 1)/λ, or ln x for λ = 0, of Box and Cox (1964), of samples raised to a positive floor.
