@@ -1,6 +1,6 @@
 //! Nanoseconds per pixel-offset of the non-local means engine, on one thread: `cargo run --release -p
 //! noisefloor-benchmarks --example nlm [SIZE]`. The minimum of five runs each; Gflop/s count what the formula needs
-//! and no overhead.
+//! and no overhead, and their share is of what the same core makes of fused multiply-adds alone.
 //!
 //! The last line is for `benchmarks/peers/compare.py`: one colour filter, window 21×21, patch 7×7, seconds.
 
@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use noisefloor_benchmarks::{NlmFrame, NlmVariant, nlm_variants};
 use noisefloor_kernels::InstructionSet;
+use noisefloor_kernels::inside::{MULTIPLY_ADDS, multiply_adds};
 use noisefloor_kernels::nlm::{NlmParams, filter_at};
 
 const RADIUS: usize = 10;
@@ -17,7 +18,7 @@ fn main() {
     let frame = NlmFrame::new(size, size);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
     println!("{size}x{size} pixels, window radius {RADIUS}, one thread, minimum of 5 runs");
-    println!("{:<24}{:>10}{:>16}{:>10}", "variant", "level", "ns/px-offset", "Gflop/s");
+    println!("{:<24}{:>10}{:>16}{:>10}{:>8}", "variant", "level", "ns/px-offset", "Gflop/s", "share");
     pool.install(|| {
         let variants = nlm_variants();
         for variant in &variants {
@@ -26,13 +27,26 @@ fn main() {
                 .filter(|level| level.is_available())
             {
                 let nanoseconds = 1e9 * seconds(&frame, variant, level) / frame.pixel_offsets(RADIUS) as f64;
-                let rate = variant.flop.map_or_else(String::new, |flop| format!("{:.1}", flop / nanoseconds));
-                println!("{:<24}{:>10}{nanoseconds:>16.2}{rate:>10}", variant.name, level.name());
+                let rate = variant.flop.map_or_else(String::new, |flop| {
+                    let rate = flop / nanoseconds;
+                    format!("{rate:>10.1}{:>8.2}", rate / peak(level))
+                });
+                println!("{:<24}{:>10}{nanoseconds:>16.2}{rate}", variant.name, level.name());
             }
         }
         let best = seconds(&frame, &variants[1], InstructionSet::best());
         println!("peer {} {best:.6}", InstructionSet::best());
     });
+}
+
+/// Gflop/s of fused multiply-adds alone.
+fn peak(level: InstructionSet) -> f64 {
+    let run = || {
+        let start = Instant::now();
+        let lanes = multiply_adds(level).expect("an available level");
+        (2 * lanes * MULTIPLY_ADDS) as f64 / start.elapsed().as_nanos() as f64
+    };
+    (0..50).map(|_| run()).fold(0.0, f64::max)
 }
 
 fn seconds(frame: &NlmFrame, variant: &NlmVariant, level: InstructionSet) -> f64 {

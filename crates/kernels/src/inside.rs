@@ -63,3 +63,33 @@ impl Kernel for Exp2 {
         out[0]
     }
 }
+
+/// Multiply-adds that one thread makes per call of [`multiply_adds`], for one lane.
+pub const MULTIPLY_ADDS: usize = 12 * 100_000;
+
+/// [`MULTIPLY_ADDS`] fused multiply-adds that wait for no other in turn, in every lane: what a processor can do at most, to
+/// measure kernels against. Gives the lanes; `None` where the processor lacks the level.
+#[must_use]
+pub fn multiply_adds(level: InstructionSet) -> Option<usize> {
+    level.is_available().then(|| level.launch(MultiplyAdds))
+}
+
+struct MultiplyAdds;
+
+impl Kernel for MultiplyAdds {
+    type Out = usize;
+
+    #[inline(always)]
+    fn run<S: Simd>(self, s: S) -> usize {
+        let (factor, term) = (s.splat(std::hint::black_box(0.5)), s.splat(std::hint::black_box(1.0)));
+        // As many as keep two units of four cycles busy, and some.
+        let mut sums = [s.splat(std::hint::black_box(0.0)); 12];
+        for _ in 0..MULTIPLY_ADDS / sums.len() {
+            for sum in &mut sums {
+                *sum = s.fma(*sum, factor, term);
+            }
+        }
+        std::hint::black_box(sums);
+        S::LANES
+    }
+}

@@ -32,6 +32,7 @@ mod hot;
 mod layout;
 mod maps;
 pub mod naive;
+mod output;
 mod params;
 mod rules;
 mod tiled;

@@ -187,25 +187,6 @@ pub struct Filtered<T = f32> {
     pub derivative: Vec<Vec<T>>,
 }
 
-impl Filtered {
-    /// Planes of zeros for a pass over images of `size` pixels.
-    pub(super) fn empty(size: usize, targets: usize, pass: &Pass) -> Self {
-        let plane = || vec![0.0f32; size];
-        Self {
-            planes: (0..targets).map(|_| plane()).collect(),
-            weight_sum: plane(),
-            center_share: plane(),
-            derivative: (0..if pass.derivative { 3 } else { 0 }).map(|_| plane()).collect(),
-        }
-    }
-
-    /// All planes: the targets, Σ w, the centre's share, then the derivatives.
-    pub(super) fn planes_mut(&mut self) -> impl Iterator<Item = &mut [f32]> {
-        let sums = [&mut self.weight_sum, &mut self.center_share];
-        self.planes.iter_mut().chain(sums).chain(&mut self.derivative).map(Vec::as_mut_slice)
-    }
-}
-
 impl NlmParams {
     /// Parameters of a plain guided sweep: κ = 1, ε = 1e-10, the printed denominators and weights, centre weight 1; k_f = 0.6
     /// as in rousselle2013rdfc, Alg. 1, lines 9, 11 and 13.

@@ -3,10 +3,11 @@
 use super::hot::{Constants, HotPass, LOCAL, PENALTY, Step, TileView};
 use super::layout::{KINDS, LARGEST, Layout, MOVED_LARGEST, MOVED_STEP, MOVED_WEIGHT, STEP, WEIGHT};
 use super::naive::LARGEST as LARGEST_SQUARE;
+use super::output::{by_tiles, floors};
 use super::params::{
     Center, Denominator, Filtered, GuideDenominator, NlmInputs, NlmParams, Pass, Planes, Rule,
 };
-use crate::engine::{Copies, InstructionSet, Plane, Scratch, Tile, TileRows, Window, for_each_tile};
+use crate::engine::{Copies, InstructionSet, Plane, Scratch, Tile, TileRows, Window};
 
 /// One call's constants, shared by all workers.
 struct Job<'a> {
@@ -52,17 +53,6 @@ fn patches(passes: &[Pass]) -> Vec<usize> {
     patches.sort_unstable_by(|a, b| b.cmp(a));
     patches.dedup();
     patches
-}
-
-/// The different τ.
-fn floors(passes: &[Pass]) -> Vec<f32> {
-    let mut floors: Vec<f32> = Vec::new();
-    for pass in passes {
-        if !floors.contains(&pass.floor) {
-            floors.push(pass.floor);
-        }
-    }
-    floors
 }
 
 /// One sweep over the window.
@@ -113,18 +103,14 @@ fn sweep(
         layout,
         level,
     };
-    let size = params.width * params.height;
-    let mut out: Vec<Filtered> =
-        passes.iter().map(|pass| Filtered::empty(size, job.layout.targets, pass)).collect();
-    let planes = out.iter_mut().flat_map(Filtered::planes_mut);
-    for_each_tile(
-        params.width,
+    by_tiles(
+        params,
+        passes,
+        job.layout.targets,
         tile_size,
-        planes,
         || job.scratch(),
         |scratch, tile, rows| job.run(scratch, tile, rows),
-    );
-    out
+    )
 }
 
 /// Factor from Φ²·D to an exponent of 2.

@@ -28,8 +28,9 @@ use self::layout::{Layout, Place};
 use self::squares::Square;
 use self::sums::Finish;
 use self::sweep::{Step, Sweep, Work};
+use super::output::{by_tiles, floors};
 use super::{Filtered, NlmInputs, NlmParams, Pass, Rule, Taps};
-use crate::engine::{Copies, InstructionSet, Tile, TileRows, for_each_tile};
+use crate::engine::{Copies, InstructionSet, Tile, TileRows};
 
 /// Tile, (width, height) in pixels: large, because what is around it is computed for every tile that it is around.
 pub(super) const TILE: (usize, usize) = (96, 32);
@@ -63,35 +64,24 @@ pub(super) fn filter(
     level: InstructionSet,
     tile_size: (usize, usize),
 ) -> Vec<Filtered> {
-    let mut floors: Vec<f32> = Vec::new();
-    for pass in passes {
-        if !floors.contains(&pass.floor) {
-            floors.push(pass.floor);
-        }
-    }
     let job = Job {
         params,
         passes,
         inputs,
         level,
         layout: Layout::new(params, passes, inputs, tile_size),
-        floors,
+        floors: floors(passes),
         features: inputs.frame.features.iter().map(Vec::len).collect(),
         rule: inputs.perturbation.map_or(Rule::Exact, |p| p.rule),
     };
-    let mut out: Vec<Filtered> = passes
-        .iter()
-        .map(|pass| Filtered::empty(params.width * params.height, job.layout.targets, pass))
-        .collect();
-    let planes = out.iter_mut().flat_map(Filtered::planes_mut);
-    for_each_tile(
-        params.width,
+    by_tiles(
+        params,
+        passes,
+        job.layout.targets,
         tile_size,
-        planes,
         || job.scratch(),
         |scratch, tile, rows| job.run(scratch, tile, rows),
-    );
-    out
+    )
 }
 
 impl Job<'_> {

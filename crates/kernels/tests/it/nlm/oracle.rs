@@ -127,9 +127,14 @@ fn the_derivative_is_that_of_running_the_filter_again() {
     let (w, h, f) = (21, 15, 1);
     let passes = [Pass { patch: Some(f), floor: 1.0, derivative: true }];
     let case = Case::random(w, h, 3, &passes, &[1]).with_step(Rule::Exact);
+    agrees_with_running_again(&case, [(4, 4), (10, 7), (16, 10)]);
+}
+
+/// Moves one value of the guide at each place and filters everything again: the twin tells the derivative of that.
+pub(super) fn agrees_with_running_again(case: &Case, places: [(usize, usize); 3]) {
     let told = &case.oracle()[0].derivative;
-    for (x, y) in [(4, 4), (10, 7), (16, 10)] {
-        let p = y * w + x;
+    for (x, y) in places {
+        let p = y * case.params.width + x;
         for (c, told) in told.iter().enumerate() {
             let step = case.step.as_ref().unwrap().0[c][p];
             if step == 0.0 {

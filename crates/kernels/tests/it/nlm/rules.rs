@@ -1,6 +1,7 @@
 //! The rules beside the printed formulas: against the twin, and what each says without it.
 
 use super::oracle::agrees;
+use super::oracle::agrees_with_running_again;
 use super::*;
 
 /// Each rule alone, some together, and both authors' programs.
@@ -129,27 +130,7 @@ fn the_derivative_with_pairs_is_that_of_running_the_filter_again() {
     for pairs in [Pairs::Near, Pairs::Raw] {
         let rules = WeightRules { pairs, ..WeightRules::default() };
         let case = with(ramps(Case::random(w, h, 3, &passes, &[])), rules).with_step(Rule::Exact);
-        let told = &case.oracle()[0].derivative;
-        for (x, y) in [(5, 5), (10, 7), (14, 9)] {
-            let p = y * w + x;
-            for (c, told) in told.iter().enumerate() {
-                let step = case.step.as_ref().unwrap().0[c][p];
-                if step == 0.0 {
-                    continue;
-                }
-                let run = |moved: bool| {
-                    let mut again = case.clone();
-                    again.frame.guide[c][0][p] += if moved { step } else { 0.0 };
-                    again.frame.targets = vec![again.frame.guide[c][0].clone()];
-                    again.step = None;
-                    again.passes[0].derivative = false;
-                    (again.oracle()[0].planes[0][p], f64::from(again.frame.guide[c][0][p]))
-                };
-                let ((before, from), (after, to)) = (run(false), run(true));
-                let truth = (after - before) / (to - from);
-                assert!((told[p] - truth).abs() < 1e-4, "({x}, {y}), {c}: {} not {truth}", told[p]);
-            }
-        }
+        agrees_with_running_again(&case, [(5, 5), (10, 7), (14, 9)]);
     }
 }
 
