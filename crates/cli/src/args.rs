@@ -5,6 +5,7 @@ mod values;
 use std::path::PathBuf;
 
 use clap::{Parser, Subcommand};
+use noisefloor_frame::Statistic;
 use noisefloor_kernels::InstructionSet;
 use noisefloor_metrics::Metric;
 
@@ -120,6 +121,7 @@ pub struct Run {
     after_help = "Examples:\n  noisefloor render cornell --spp 64 --seed 1 --size 640x480 -o cornell.exr\n  \
     noisefloor render toaster --spp 16 --record albedo,normal,flash --filter point -o toaster.exr\n  \
     noisefloor render outdoor --spp 4096 --parts 8 -o reference.exr     a low-discrepancy reference\n  \
+    noisefloor render cornell --spp 64 --statistics third-moment,box-cox:0.5:0.001 -o moments.exr\n  \
     noisefloor render cornell --spp 64 --feature-hit through-specular -o behind-the-mirror.exr\n  \
     noisefloor render outdoor --spp 64 --environment sky.exr -o another-sky.exr\n  \
     noisefloor render rings --spp 64 --integrator photon-mapping -o caustics.exr\n  \
@@ -150,6 +152,10 @@ pub struct Render {
     /// registered methods can use and the scene can give]
     #[arg(long, value_name = "A,B,…", value_delimiter = ',')]
     pub record: Option<Vec<String>>,
+    /// Statistics of the colour to record beside mean, variance and halves, by comma: third-moment, least, greatest,
+    /// four-parts, position, box-cox:λ:floor [default: none]
+    #[arg(long, value_name = "A,B,…", value_delimiter = ',', conflicts_with = "parts")]
+    pub statistics: Vec<Statistic>,
     /// Longest path, in edges from the eye to a light: 2 is direct light
     #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub depth: u32,

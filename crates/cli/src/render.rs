@@ -96,6 +96,7 @@ fn one(context: &Context, args: &Render, base: &Scene, shot: Shot, output: &Outp
     request.depth = args.depth;
     request.filter = PixelFilter::from_name(&args.filter).unwrap_or(PixelFilter::Box);
     request.record = record;
+    request.optional.statistics.clone_from(&args.statistics);
     request.integrator = shot.integrator;
     request.photons = maps.as_ref();
     request.sample_start = args.start;

@@ -116,6 +116,14 @@ pub enum FrameError {
         /// Largest value allowed.
         greatest: f64,
     },
+    /// No optional statistic has such a name.
+    #[error("`{text}` is no optional statistic; there are {known}")]
+    UnknownStatistic {
+        /// What was asked for.
+        text: String,
+        /// The names that there are.
+        known: String,
+    },
     /// Something about an optional statistic does not fit.
     #[error("optional statistic `{id}`: {problem}")]
     Optional {

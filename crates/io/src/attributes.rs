@@ -15,7 +15,7 @@ use crate::IoError;
 pub(crate) type Attributes = BTreeMap<String, AttributeValue>;
 
 /// Names with a meaning here. Anything else is kept as an extra.
-const OURS: [&str; 16] = [
+const OURS: [&str; 17] = [
     "scene",
     "renderer",
     "integrator",
@@ -32,12 +32,16 @@ const OURS: [&str; 16] = [
     "renderThreads",
     PHOTON_MAPS,
     ROUNDS,
+    FIRST_DEALT,
 ];
 
 /// Which photon maps carried the light.
 const PHOTON_MAPS: &str = "photon_maps";
 /// In how many rounds samples were placed.
 const ROUNDS: &str = "adaptive_rounds";
+
+/// Which of four parts the first sample of every pixel went to.
+const FIRST_DEALT: &str = "first_of_four_parts";
 
 /// Other programs refuse channel names above 31 bytes unless the file says that it has long names, which the writer
 /// derives from *attribute* names alone: this attribute has a long name.
@@ -54,6 +58,15 @@ pub(crate) struct Facts {
     pub(crate) spp: Option<f64>,
     pub(crate) spp_half_a: Option<u32>,
     pub(crate) sampling: Sampling,
+    /// Which of four parts the first sample of every pixel went to, 0 to 3.
+    pub(crate) first_dealt: u32,
+}
+
+/// Says which of four parts the first sample of every pixel went to, where it is not the first.
+pub(crate) fn put_first_dealt(attributes: &mut Attributes, part: u32) {
+    if part != 0 {
+        attributes.insert(FIRST_DEALT.to_owned(), text(&part.to_string()));
+    }
 }
 
 /// Everything that goes into the header of a frame.
@@ -216,8 +229,9 @@ pub(crate) fn facts(file: &Path, attributes: &Attributes) -> Result<Facts, IoErr
             .ok_or_else(|| bad(file, "sampling", &name, "`independent` or `low-discrepancy`"))?,
         None => sampling_of(provenance.sampler.as_deref()),
     };
+    let first_dealt = take(&mut left, FIRST_DEALT).filter(|part| *part < 4).unwrap_or(0);
     provenance.extra = unescape(left);
-    Ok(Facts { provenance, spp, spp_half_a, sampling })
+    Ok(Facts { provenance, spp, spp_half_a, sampling, first_dealt })
 }
 
 /// The way of carrying light by the first word of its description.

@@ -103,10 +103,29 @@ impl Layers {
                 self.drop_without(layer, one, (layer, other));
             }
         }
+        self.prune_optional();
         let parts = [Layer::FlashBase, Layer::FlashLight, Layer::FlashCovariance];
         for (one, other) in [(0, 1), (1, 0), (2, 0), (2, 1)] {
             for statistic in Statistic::ALL {
                 self.drop_without(&parts[one], statistic, (&parts[other], Statistic::Mean));
+            }
+        }
+    }
+
+    /// Leaves out optional statistics of which an image is missing.
+    fn prune_optional(&mut self) {
+        let names = self.found.keys().filter_map(|(layer, _)| match layer {
+            Layer::Optional(name, _) => Some(name.clone()),
+            _ => None,
+        });
+        for name in names.collect::<BTreeSet<_>>() {
+            let images =
+                name.parse().map_or(0, |found: noisefloor_frame::Statistic| found.row().images.len());
+            let all: Vec<Layer> = (0..images).map(|k| Layer::Optional(name.clone(), k)).collect();
+            for other in &all {
+                for one in &all {
+                    self.drop_without(one, Statistic::Mean, (other, Statistic::Mean));
+                }
             }
         }
     }

@@ -1,9 +1,11 @@
 //! Channel names on disk: the one place that knows what a layer is called.
 //!
 //! A channel is `layer.channel`, or `layer.statistic.channel` with the statistics `variance`, `halfA` and `halfB`;
-//! colour has no layer name (`R`, `variance.R`). Importers for other programs' names belong here too.
+//! colour has no layer name (`R`, `variance.R`). Optional statistics of the colour are layers of their own, such as
+//! `optional.least.R` and, of several images, `optional.four-parts.part0.R`. Importers for other programs' names belong here
+//! too.
 
-use noisefloor_frame::FeatureId;
+use noisefloor_frame::{self as frame, FeatureId};
 
 /// Which buffer of a frame a channel belongs to.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -17,7 +19,12 @@ pub(crate) enum Layer {
     Samples,
     /// One of the independent parts of a reference.
     Part(usize),
+    /// An image of an optional statistic of the colour: its name, and which of the images of its row.
+    Optional(String, usize),
 }
+
+/// What the names of layers of optional statistics begin with.
+const OPTIONAL: &str = "optional.";
 
 /// What of the buffer a channel holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -45,6 +52,24 @@ const RGB: &[&str] = &["R", "G", "B"];
 const Y: &[&str] = &["Y"];
 
 impl Layer {
+    /// An image of an optional statistic.
+    pub(crate) fn optional(statistic: frame::Statistic, image: usize) -> Self {
+        Self::Optional(statistic.to_string(), image)
+    }
+
+    /// `four-parts.part0`, or `least`, which has one image.
+    fn optional_from_name(name: &str) -> Option<Self> {
+        let one = |name: &str| name.parse::<frame::Statistic>().ok().filter(|s| s.row().images.len() == 1);
+        if let Some(statistic) = one(name) {
+            return Some(Self::optional(statistic, 0));
+        }
+        let (name, image) = name.rsplit_once('.')?;
+        let statistic: frame::Statistic = name.parse().ok()?;
+        let images = statistic.row().images;
+        let image = images.iter().position(|own| *own == image).filter(|_| images.len() > 1)?;
+        Some(Self::optional(statistic, image))
+    }
+
     fn from_name(name: &str) -> Self {
         let part = name.strip_prefix("part").and_then(|number| number.parse().ok());
         match (name, part) {
@@ -69,6 +94,10 @@ impl Layer {
             Self::FlashReady => "flash".into(),
             Self::Samples => "samples".into(),
             Self::Part(k) => format!("part{k}"),
+            Self::Optional(statistic, image) => match statistic.parse().map(frame::Statistic::row) {
+                Ok(row) if row.images.len() > 1 => format!("{OPTIONAL}{statistic}.{}", row.images[*image]),
+                _ => format!("{OPTIONAL}{statistic}"),
+            },
         }
     }
 
@@ -84,7 +113,7 @@ impl Layer {
     /// Whether such a layer exists.
     fn has(&self, statistic: Statistic) -> bool {
         match self {
-            Self::FlashCovariance | Self::Part(_) => statistic == Statistic::Mean,
+            Self::FlashCovariance | Self::Part(_) | Self::Optional(..) => statistic == Statistic::Mean,
             Self::Samples => matches!(statistic, Statistic::Mean | Statistic::HalfA),
             _ => true,
         }
@@ -122,6 +151,10 @@ pub(crate) fn parse(name: &str) -> Result<(Layer, Statistic, String), &'static s
     let Some((path, channel)) = name.rsplit_once('.') else {
         return parse_bare(name);
     };
+    if let Some(optional) = path.strip_prefix(OPTIONAL) {
+        let layer = Layer::optional_from_name(optional).ok_or("there is no such optional statistic")?;
+        return Ok((layer, Statistic::Mean, channel.to_owned()));
+    }
     let (prefix, statistic) = split_statistic(path);
     let layer = match (prefix, statistic) {
         ("", _) => Layer::Color,
@@ -198,6 +231,10 @@ mod tests {
         let mut layers: Vec<Layer> = FeatureId::KNOWN.into_iter().map(Layer::Feature).collect();
         layers.extend([Layer::Color, Layer::FlashBase, Layer::FlashLight, Layer::FlashReady]);
         layers.extend([extra(), Layer::Samples, Layer::FlashCovariance, Layer::Part(0), Layer::Part(17)]);
+        for name in ["third-moment", "least", "four-parts", "box-cox:0.5:0.001", "position"] {
+            let statistic: frame::Statistic = name.parse().unwrap();
+            layers.extend((0..statistic.row().images.len()).map(|image| Layer::optional(statistic, image)));
+        }
         for layer in layers {
             for statistic in Statistic::ALL.into_iter().filter(|s| layer.has(*s)) {
                 for channel in layer.channels().unwrap_or(&["3"]) {
@@ -218,6 +255,12 @@ mod tests {
         assert_eq!(channel_name(&Layer::Samples, Statistic::HalfA, "Y"), "samples.halfA.Y");
         assert_eq!(channel_name(&Layer::Part(3), Statistic::Mean, "R"), "part3.R");
         assert_eq!(title(&Layer::Color, Statistic::Variance), "color.variance");
+        let name = |statistic: &str, image| {
+            channel_name(&Layer::optional(statistic.parse().unwrap(), image), Statistic::Mean, "R")
+        };
+        assert_eq!(name("third-moment", 0), "optional.third-moment.R");
+        assert_eq!(name("four-parts", 3), "optional.four-parts.part3.R");
+        assert_eq!(name("box-cox:-0.5:0.01", 1), "optional.box-cox:-0.5:0.01.variance.R");
     }
 
     #[test]
@@ -225,9 +268,18 @@ mod tests {
         assert_eq!(parse("depth"), Ok((Layer::Feature(FeatureId::Depth), Statistic::Mean, "Z".into())));
         let extra = Layer::Feature(FeatureId::Extra("dzdx".into()));
         assert_eq!(parse("dzdx"), Ok((extra, Statistic::Mean, "Y".into())));
-        for wrong in
-            ["variance", "halfA", "albedo", "flashCov.variance.R", ".R", "a..R", "", "samples.variance.Y"]
-        {
+        for wrong in [
+            "variance",
+            "halfA",
+            "albedo",
+            "flashCov.variance.R",
+            ".R",
+            "a..R",
+            "",
+            "samples.variance.Y",
+            "optional.least.thirdMoment.R",
+            "optional.four-parts.R",
+        ] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }

@@ -2,8 +2,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_frame::{
-    Counts, Estimate, FeatureId, Fidelity, Finding, Flash, Frame, Hygiene, Image, Provenance, Reference,
-    Samples, Sampling, Variance, sorted_findings,
+    self as frame, Counts, Estimate, FeatureId, Fidelity, Finding, Flash, FourParts, Frame, Hygiene, Image,
+    Optional, Provenance, Reference, Samples, Sampling, Variance, sorted_findings,
 };
 
 use crate::attributes::{self, Facts};
@@ -235,6 +235,7 @@ fn read_parts(
     let facts = attributes::facts(path, &opened.attributes)?;
     // Everything that names alone decide comes before the decoder's work.
     let features = feature_ids(&layers);
+    let optionals = optional_statistics(&layers);
     check_layers(path, &layers)?;
     if facts.spp.is_none() && options.spp.is_none() && layers.get(&Layer::Samples, Statistic::Mean).is_none()
     {
@@ -252,6 +253,7 @@ fn read_parts(
         let estimate = estimate(path, &mut planned, &Layer::Feature(id.clone()))?;
         frame.features.insert(id, estimate);
     }
+    frame.optional = optional(path, &mut planned, &optionals, facts.first_dealt, &frame.samples)?;
     let mut parts = Vec::new();
     while let Some(part) = planned.take(&Layer::Part(parts.len()), Statistic::Mean) {
         parts.push(part);
@@ -266,6 +268,34 @@ fn feature_ids(layers: &Layers) -> BTreeSet<FeatureId> {
         _ => None,
     });
     features.collect()
+}
+
+/// The optional statistics of which there is every image: [`Layers::find`] left out the others.
+fn optional_statistics(layers: &Layers) -> Vec<frame::Statistic> {
+    let of = |(layer, _): &(Layer, Statistic)| match layer {
+        Layer::Optional(name, 0) => name.parse().ok(),
+        _ => None,
+    };
+    layers.keys().filter_map(of).collect()
+}
+
+fn optional(
+    file: &Path,
+    planned: &mut Planned,
+    statistics: &[frame::Statistic],
+    first: u32,
+    samples: &Samples,
+) -> Result<Optional, IoError> {
+    let mut recorded = Vec::new();
+    for statistic in statistics {
+        let images = statistic.row().images.len();
+        let images =
+            (0..images).filter_map(|k| planned.take(&Layer::optional(*statistic, k), Statistic::Mean));
+        recorded.push((*statistic, images.collect()));
+    }
+    let parts = statistics.contains(&frame::Statistic::FourParts);
+    let parts = parts.then(|| FourParts::dealt(first, samples.total()));
+    Optional::new(recorded, parts, Vec::new()).map_err(|cause| IoError::frame(file, cause))
 }
 
 /// Checks that colour and parts have the layers that give them a meaning.

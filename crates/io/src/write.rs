@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use noisefloor_frame::{Counts, Estimate, Flash, Frame, FrameError, Image, Reference, Samples};
+use noisefloor_frame::{Counts, Estimate, Flash, FourParts, Frame, FrameError, Image, Reference, Samples};
 
 use crate::encode::{Plane, Values};
 use crate::names::{Layer, Statistic, channel_name, default_channels, parse, title};
@@ -11,7 +11,8 @@ use crate::{Destination, IoError, attributes, encode};
 /// Writes a frame as one multi-layer EXR file, 32-bit floats, ZIP-compressed, atomically, or to whatever else the
 /// [`Destination`] is.
 ///
-/// [`crate::read_frame`] gives back every number bit for bit. Equal frames give equal files.
+/// [`crate::read_frame`] gives back every number bit for bit. Equal frames give equal files. Of optional statistics the
+/// images are written; samples of tapped pixels are not.
 ///
 /// # Errors
 /// [`IoError::Write`] if the file cannot be written, [`IoError::Extension`] if it is named like another kind of file,
@@ -101,8 +102,25 @@ fn write_parts(to: &Destination, frame: &Frame, parts: &[Image]) -> Result<(), I
         shape.map_err(|cause| IoError::frame(path, cause))?;
         planes.image(&Layer::Part(k), Statistic::Mean, part)?;
     }
-    let attributes = attributes::of_frame(path, &frame.provenance, &frame.samples, frame.sampling)?;
+    for (statistic, images) in frame.optional.recorded() {
+        for (k, image) in images.iter().enumerate() {
+            planes.image(&Layer::optional(*statistic, k), Statistic::Mean, image)?;
+        }
+    }
+    let mut attributes = attributes::of_frame(path, &frame.provenance, &frame.samples, frame.sampling)?;
+    if let Some(parts) = frame.optional.four_parts() {
+        attributes::put_first_dealt(&mut attributes, first_dealt(path, parts, &frame.samples)?);
+    }
     encode::write(to, frame.width(), frame.height(), planes.planes, attributes, None)
+}
+
+/// The part that the first sample of every pixel went to: from there on they were dealt in turn.
+fn first_dealt(file: &Path, parts: FourParts<'_>, samples: &Samples) -> Result<u32, IoError> {
+    let first = (0..4).find(|first| FourParts::dealt(*first, samples.total()) == *parts.samples);
+    first.ok_or_else(|| {
+        let problem = "samples of four parts that were not dealt in turn are not written".into();
+        IoError::frame(file, FrameError::Optional { id: "four-parts", problem })
+    })
 }
 
 /// Collects channels under their names.

@@ -118,3 +118,19 @@ fn a_colour_is_read_whatever_stands_beside_it() {
     write(&path, &["variance.R", "halfA.G", "albedo"]);
     assert_eq!(read_color(&path).unwrap().get(2, 0, 0), 0.75);
 }
+
+#[test]
+fn an_optional_statistic_without_one_of_its_images_or_of_an_unknown_kind_is_left_out() {
+    let rgb = |layer: &str| ["R", "G", "B"].map(|channel| format!("optional.{layer}.{channel}"));
+    let layers = ["least", "position.right", "box-cox:0:0.001.mean", "box-cox:9:0.001.mean", "kurtosis"];
+    let names: Vec<String> = layers.iter().flat_map(|layer| rgb(layer)).collect();
+    let file = read(&names.iter().map(String::as_str).collect::<Vec<_>>());
+    let kept: Vec<String> = file.frame.optional.recorded().iter().map(|(s, _)| s.to_string()).collect();
+    assert_eq!(kept, ["least"]);
+    assert_eq!(file.frame.optional.least().unwrap().get(2, 3, 2), 3.0);
+    assert!(file.frame.features.is_empty());
+    let subjects: Vec<&str> = file.findings.iter().map(|f| f.subject.as_str()).collect();
+    for layer in &layers[1..] {
+        assert!(subjects.iter().any(|subject| subject.contains(layer)), "{layer}: {subjects:?}");
+    }
+}

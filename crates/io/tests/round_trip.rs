@@ -5,7 +5,10 @@ mod common;
 use std::collections::BTreeMap;
 
 use common::*;
-use noisefloor_frame::{Counts, Estimate, FeatureId, Flash, Frame, Image, Reference, Samples, Sampling};
+use noisefloor_frame::{
+    Counts, Estimate, FeatureId, Flash, FourParts, Frame, Image, Optional, Reference, Samples, Sampling,
+    Statistic,
+};
 use noisefloor_io::{
     ReadOptions, read_attributes, read_color, read_frame, read_image, read_info, read_reference, write_frame,
     write_image, write_reference,
@@ -168,4 +171,50 @@ fn equal_frames_make_equal_files() {
         })
         .into();
     assert!(bytes[0] == bytes[1]);
+}
+
+/// A frame of these samples, with four parts dealt from the sample of index `first` on and other optional statistics.
+fn with_optional(samples: Samples, first: u32) -> Frame {
+    let names =
+        ["third-moment", "least", "box-cox:0:0.001", "box-cox:-0.5:1000000", "four-parts", "position"];
+    let mut frame = Frame::from_color(estimate(5, 4, 3, 1), samples, Sampling::Independent);
+    let recorded = names.iter().zip(0..).map(|(name, k)| {
+        let statistic: Statistic = name.parse().unwrap();
+        let images = (0..statistic.row().images.len() as u32).map(|i| image(5, 4, 3, 100 + 10 * k + i));
+        (statistic, images.collect())
+    });
+    let parts = FourParts::dealt(first, frame.samples.total());
+    frame.optional = Optional::new(recorded.collect(), Some(parts), Vec::new()).unwrap();
+    frame
+}
+
+#[test]
+fn optional_statistics_come_back_with_how_samples_were_dealt() {
+    let map: Vec<u32> = (4..24).collect();
+    for samples in [Samples::uniform(11), Samples::uniform(8), Samples::per_pixel(map)] {
+        for first in 0..4 {
+            let frame = with_optional(samples.clone(), first);
+            let back = there_and_back(&frame);
+            assert_same_frame(&frame, &back);
+            assert_eq!(back.optional.recorded().len(), 6);
+            for ((a, ours), (b, theirs)) in frame.optional.recorded().iter().zip(back.optional.recorded()) {
+                assert_eq!(a, b);
+                ours.iter().zip(theirs).for_each(|(x, y)| assert_same_image(&a.to_string(), x, y));
+            }
+            let parts = |frame: &Frame| frame.optional.four_parts().unwrap().samples.clone();
+            assert_eq!(parts(&frame), parts(&back));
+        }
+    }
+}
+
+#[test]
+fn parts_that_were_not_dealt_in_turn_are_refused() {
+    let mut frame = with_optional(Samples::uniform(8), 0);
+    let recorded = frame.optional.recorded().to_vec();
+    frame.optional = Optional::new(recorded, Some([5, 1, 1, 1].map(Counts::Uniform)), Vec::new()).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.exr");
+    let error = write_frame(&path, &frame).unwrap_err();
+    assert!(error.to_string().contains("four-parts"), "{error}");
+    assert!(!path.exists());
 }

@@ -7,8 +7,8 @@ use crate::{Counts, FrameError, Image};
 /// Optional statistics of a frame's colour, each an image of 3 channels. Empty unless they were asked for.
 ///
 /// They are of the samples as they were taken: whoever scales or mends the colour of a frame does not change them.
-/// Values beyond the range of `f32`, such as the third moment of samples around 10¹³, are infinite. Files do not keep
-/// them.
+/// Values beyond the range of `f32`, such as the third moment of samples around 10¹³, are infinite. Files keep the images,
+/// not the samples of tapped pixels.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Optional {
     recorded: Vec<(Statistic, Vec<Image>)>,
@@ -26,6 +26,25 @@ pub struct FourParts<'a> {
 }
 
 impl FourParts<'_> {
+    /// How many samples each part has of `total` that were dealt in turn, from the sample of index `first` on.
+    #[must_use]
+    pub fn dealt(first: u32, total: &Counts) -> [Counts; 4] {
+        std::array::from_fn(|part| {
+            let part = part as u64;
+            let below = |end: u64| end / 4 + u64::from(end % 4 > part);
+            let first = u64::from(first);
+            // No part has more samples than there are.
+            let of = |n: u32| (below(first + u64::from(n)) - below(first)) as u32;
+            match total {
+                Counts::Uniform(n) => Counts::Uniform(of(*n)),
+                Counts::PerPixel(map) => {
+                    let counts = Counts::PerPixel(map.iter().map(|n| of(*n)).collect());
+                    counts.uniform().map_or(counts, Counts::Uniform)
+                }
+            }
+        })
+    }
+
     /// The halves that the parts make up: A of parts 0 and 2, B of 1 and 3, by their numbers of samples. They are those
     /// of the frame, to two roundings of `f32`.
     #[must_use]
@@ -60,15 +79,16 @@ pub struct BoxCoxMoments<'a> {
 
 impl Optional {
     /// Puts images together: those of each statistic in the order of its row. `part_samples`: samples of each of four
-    /// parts, where these are among the statistics.
+    /// parts, where these are among the statistics. Statistics are kept in the order of the table, transforms by λ and floor.
     ///
     /// # Errors
     /// [`FrameError::Optional`] if a statistic has another number of images than its row, or parts have no counts.
     pub fn new(
-        recorded: Vec<(Statistic, Vec<Image>)>,
+        mut recorded: Vec<(Statistic, Vec<Image>)>,
         part_samples: Option<[Counts; 4]>,
         tapped: Vec<Tapped>,
     ) -> Result<Self, FrameError> {
+        recorded.sort_by(|(a, _), (b, _)| a.cmp_in_table(b));
         for (statistic, images) in &recorded {
             let row = statistic.row();
             let (id, got, expected) = (row.id, images.len(), row.images.len());

@@ -4,6 +4,8 @@
 //! covariances and arbitrary-order statistical moments" (Sandia report SAND2008-6212, 2008): no large near-equal numbers
 //! are subtracted.
 
+use std::cmp::Ordering;
+
 use super::statistic::{BoxCox, Statistic};
 
 /// One optional statistic: what is kept of a channel's samples, and what comes of it.
@@ -116,14 +118,29 @@ impl Statistic {
     /// Its row of the table.
     #[must_use]
     pub fn row(self) -> &'static Row {
-        &TABLE[match self {
+        &TABLE[self.index()]
+    }
+
+    fn index(self) -> usize {
+        match self {
             Self::ThirdMoment => 0,
             Self::Least => 1,
             Self::Greatest => 2,
             Self::FourParts => 3,
             Self::BoxCox(_) => 4,
             Self::Position => 5,
-        }]
+        }
+    }
+
+    /// By row, Box–Cox transforms by λ and floor.
+    pub(super) fn cmp_in_table(&self, other: &Self) -> Ordering {
+        let transform = |statistic: &Self| match statistic {
+            Self::BoxCox(transform) => (transform.lambda(), transform.floor()),
+            _ => (0.0, 0.0),
+        };
+        let ((lambda, floor), (other_lambda, other_floor)) = (transform(self), transform(other));
+        let of_transforms = lambda.total_cmp(&other_lambda).then(floor.total_cmp(&other_floor));
+        self.index().cmp(&other.index()).then(of_transforms)
     }
 }
 

@@ -254,3 +254,55 @@ fn every_row_is_that_of_its_statistic() {
     assert_eq!(unique.len(), TABLE.len());
     assert!(TABLE.iter().all(|row| row.images.len() <= 8 && !row.start.is_empty()));
 }
+
+#[test]
+fn names_round_trip_and_a_wrong_one_is_told_what_there_is() {
+    let transforms =
+        [(0.0, 1e-3), (-0.0, 1e-3), (0.5, 1e6), (-2.0, 0.125)].map(|(l, f)| BoxCox::new(l, f).unwrap());
+    let others = [
+        Statistic::ThirdMoment,
+        Statistic::Least,
+        Statistic::Greatest,
+        Statistic::FourParts,
+        Statistic::Position,
+    ];
+    for statistic in others.into_iter().chain(transforms.map(Statistic::BoxCox)) {
+        assert_eq!(statistic.to_string().parse::<Statistic>().unwrap(), statistic);
+    }
+    assert_eq!(Statistic::BoxCox(transforms[1]).to_string(), "box-cox:0:0.001");
+    for wrong in
+        ["", "fourth-moment", "box-cox", "box-cox:", "box-cox:1", "box-cox:1:x", "box-cox:1:1:1", "least:1"]
+    {
+        let error = wrong.parse::<Statistic>().unwrap_err();
+        assert!(matches!(error, FrameError::UnknownStatistic { .. }), "{wrong}: {error}");
+        assert!(error.to_string().contains("third-moment"), "{error}");
+    }
+    let beyond = "box-cox:3:1".parse::<Statistic>().unwrap_err();
+    assert!(matches!(beyond, FrameError::Parameter { .. }), "{beyond}");
+}
+
+#[test]
+fn parts_are_dealt_in_turn_from_any_sample_on() {
+    for first in 0..9u32 {
+        let totals: Vec<u32> = (1..40).collect();
+        let parts = FourParts::dealt(first, &Counts::PerPixel(totals.clone()));
+        for (pixel, total) in totals.into_iter().enumerate() {
+            for (part, counts) in parts.iter().enumerate() {
+                let dealt = (first..first + total).filter(|index| *index as usize % 4 == part).count();
+                assert_eq!(counts.at(pixel) as usize, dealt, "part {part} of {total} from {first}");
+            }
+        }
+    }
+    assert_eq!(FourParts::dealt(0, &Counts::PerPixel(vec![7; 3])), [2, 2, 2, 1].map(Counts::Uniform));
+}
+
+#[test]
+fn a_frame_has_them_in_the_order_of_the_table() {
+    let image = || Image::filled(1, 1, 3, 1.0);
+    let transform = |lambda| Statistic::BoxCox(BoxCox::new(lambda, 1e-2).unwrap());
+    let asked = [transform(0.5), Statistic::Least, transform(-0.5), Statistic::ThirdMoment];
+    let recorded = asked.map(|statistic| (statistic, vec![image(); statistic.row().images.len()]));
+    let optional = Optional::new(recorded.to_vec(), None, vec![]).unwrap();
+    let order: Vec<Statistic> = optional.recorded().iter().map(|(statistic, _)| *statistic).collect();
+    assert_eq!(order, [Statistic::ThirdMoment, Statistic::Least, transform(-0.5), transform(0.5)]);
+}

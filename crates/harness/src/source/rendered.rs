@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
-use noisefloor_frame::{Estimate, Frame, PixelFilter, Reference, Sampling};
+use noisefloor_frame::{Estimate, Frame, PixelFilter, Reference, Sampling, Statistic};
 use noisefloor_render::{
     FeatureHit, Integrator, Keep, PhotonMaps, PhotonSettings, PixelClass, Prepared, Quantity, Recorded,
     RenderRequest, render,
@@ -41,6 +41,8 @@ pub(super) struct Rendered {
     feature_hit: FeatureHit,
     sampling: Sampling,
     record: BTreeMap<Quantity, Keep>,
+    /// Optional statistics of the frames.
+    statistics: Vec<Statistic>,
     reference: ReferenceSpec,
     /// Hash and seed of each part of the reference.
     parts: Vec<(Key, u64)>,
@@ -107,6 +109,7 @@ pub(super) fn open(
     let identity = if shot.frame == 0 { Value::from(name.as_str()) } else { json!([name, shot.frame]) };
     let map_seed = seed_of(&json!({"purpose": "photon maps", "scene": identity}));
 
+    let statistics = study.optional_statistics();
     let reference = study.reference;
     let (depth, filter) = (study.depth, study.filter);
     // Everything that a sample's value depends on, whoever asks for it.
@@ -143,8 +146,9 @@ pub(super) fn open(
     // Path traced unless the frames share their maps with it: then it is the same with and without maps.
     let shared = shot.integrator == Integrator::PhotonMapping && shot.maps == Maps::Fixed;
     let clean = look(reference.sampling, &BTreeMap::new(), shared)?;
-    let frames =
-        frame_specs(study, spec, &identity, |spp, seed| key_of(&frame_identity(&noisy, &record, spp, seed)));
+    let frames = frame_specs(study, spec, &identity, |spp, seed| {
+        key_of(&frame_identity(&noisy, &record, &statistics, spp, seed))
+    });
     let per_part = reference.spp / reference.parts; // parts ≥ 8 by the study's checks
     let parts: Vec<(Key, u64)> = (0..reference.parts)
         .map(|part| {
@@ -167,6 +171,10 @@ pub(super) fn open(
         ("sampling", study.sampling.name().to_owned()),
         ("recorded", record.keys().map(|q| q.name()).collect::<Vec<_>>().join(", ")),
     ];
+    if !statistics.is_empty() {
+        let names: Vec<String> = statistics.iter().map(ToString::to_string).collect();
+        settings.push(("optional statistics", names.join(", ")));
+    }
     if shot.frame > 0 || shot.orbit_degrees != 0.0 {
         let orbit = if shot.orbit_degrees == 0.0 {
             String::new()
@@ -221,6 +229,7 @@ pub(super) fn open(
         feature_hit: study.feature_hit,
         sampling: study.sampling,
         record,
+        statistics,
         reference,
         parts,
         shot,
@@ -236,11 +245,23 @@ pub(super) fn open(
 }
 
 /// Everything that determines a frame.
-fn frame_identity(look: &Value, record: &BTreeMap<Quantity, Keep>, spp: u32, seed: u64) -> Value {
-    json!({
+fn frame_identity(
+    look: &Value,
+    record: &BTreeMap<Quantity, Keep>,
+    statistics: &[Statistic],
+    spp: u32,
+    seed: u64,
+) -> Value {
+    let mut all = json!({
         "look": look, "spp": spp, "seed": seed,
         "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
-    })
+    });
+    // Frames without any have the keys that they always had.
+    if !statistics.is_empty() {
+        let names: BTreeSet<String> = statistics.iter().map(ToString::to_string).collect();
+        all["statistics"] = json!(names);
+    }
+    all
 }
 
 /// Hash of which pixels of a tiny image are of the scene's own classes.
@@ -304,13 +325,13 @@ impl Rendered {
     /// a level.
     pub(super) fn with_samples(&self, frame: &FrameSpec, spp: u32) -> FrameSpec {
         let seed = frame_seed(self.study_seed, &self.identity, spp, frame.replicate);
-        let key = key_of(&frame_identity(&self.look, &self.record, spp, seed));
+        let key = key_of(&frame_identity(&self.look, &self.record, &self.statistics, spp, seed));
         FrameSpec { seed, key, kind: FrameKind::Samples(spp), ..frame.clone() }
     }
 
     /// The frame of the same replicate with as many samples placed where `row` asks for them.
     pub(super) fn in_rounds(&self, frame: &FrameSpec, adaptive: AdaptiveFrames, row: &Row) -> FrameSpec {
-        let mut all = frame_identity(&self.look, &self.record, frame.spp, frame.seed);
+        let mut all = frame_identity(&self.look, &self.record, &self.statistics, frame.spp, frame.seed);
         all["adaptive"] = json!(adaptive);
         all["method"] = json!([row.method.id, row.method.params, self.probe_in_rounds(adaptive, row)]);
         FrameSpec { key: key_of(&all), kind: FrameKind::Adaptive(adaptive), ..frame.clone() }
@@ -348,7 +369,8 @@ impl Rendered {
         observer: &dyn Observer,
     ) -> Result<Frame, HarnessError> {
         let record = Recorded::Exactly(self.record.clone());
-        let request = self.request(spec.samples(), spec.seed, self.sampling, record);
+        let mut request = self.request(spec.samples(), spec.seed, self.sampling, record);
+        request.optional.statistics.clone_from(&self.statistics);
         let make = |request: &RenderRequest<'_>| match (spec.kind, row) {
             (FrameKind::Adaptive(adaptive), Some(row)) => {
                 let label = (spec.spp, row.label.as_str());

@@ -1,6 +1,6 @@
 //! Rendered frames are shared, checked and made again when damaged.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::common::{Place, Watch, study, timeless};
 use noisefloor_harness::StudyRun;
@@ -169,4 +169,51 @@ fn independent_frames_of_a_scene_differ_and_repeat() {
     let elsewhere = Place::new();
     elsewhere.run(&rendered(), &Watch::default()).unwrap();
     assert_eq!(timeless(&elsewhere.out()), records);
+}
+
+#[test]
+fn frames_carry_the_optional_statistics_that_a_study_asks_for_and_only_then() {
+    let place = Place::new();
+    place.run(&rendered(), &Watch::default()).unwrap();
+    let plain = files(&place, "exr");
+    let asking = Study { statistics: vec!["least".into(), "box-cox:0:0.001".into()], ..rendered() };
+    let asked = Watch::default();
+    place.run(&asking, &asked).unwrap();
+    // Frames are others, the reference is the same.
+    assert_eq!(asked.samples(), PIXELS * 2 * SPP);
+    let read =
+        |path: &PathBuf| noisefloor_io::read_frame(path, &noisefloor_io::ReadOptions::default()).unwrap();
+    let (before, after): (Vec<_>, Vec<_>) =
+        files(&place, "exr").into_iter().partition(|file| plain.contains(file));
+    assert_eq!((before.len(), after.len()), (2 + 8, 2));
+    assert!(before.iter().all(|file| read(file).optional.is_empty()));
+    for file in &after {
+        let frame = read(file);
+        let names: Vec<String> = frame.optional.recorded().iter().map(|(s, _)| s.to_string()).collect();
+        assert_eq!(names, ["least", "box-cox:0:0.001"]);
+        let least = frame.optional.least().unwrap();
+        assert!(least.data().iter().zip(frame.color.mean.data()).all(|(least, mean)| least <= mean));
+        // No sample changes because more is kept of it.
+        assert!(before.iter().map(read).any(|other| other.color.mean == frame.color.mean));
+    }
+}
+
+#[test]
+fn statistics_without_a_meaning_are_refused_with_what_there_is() {
+    let told = |name: &str, sampling: &str| {
+        let toml = format!(
+            "name = \"asking\"\nspp = [2]\nstatistics = [{name}]\nsampling = \"{sampling}\"\n\
+             [[scene]]\nid = \"cornell\"\n[[method]]\nid = \"mc\"\n"
+        );
+        Study::from_toml(&toml, Path::new("asking.toml")).unwrap_err().to_string()
+    };
+    for (names, sampling, words) in [
+        ("\"median\"", "independent", "there are third-moment"),
+        ("\"least\", \"least\"", "independent", "once"),
+        ("\"third-moment\"", "independent", "at least 3 samples"),
+        ("\"four-parts\"", "low-discrepancy", "independent sampling"),
+    ] {
+        let told = told(names, sampling);
+        assert!(told.contains(words) && told.contains("asking.toml, line 3"), "{told}");
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use noisefloor_frame::{Counts, Frame, FrameError, Gathering, Image, Optional, Statistic, Tapped};
+use noisefloor_frame::{Counts, FourParts, Frame, FrameError, Gathering, Image, Optional, Statistic, Tapped};
 
 use super::tally::OptionalTally;
 use crate::RenderRequest;
@@ -72,15 +72,11 @@ pub fn put(
         recorded.push((*statistic, all));
     }
     let parts = wanted.gathering.statistics().contains(&Statistic::FourParts);
-    let part_samples = parts.then(|| std::array::from_fn(|part| samples_of(part as u32, first, ends)));
+    let part_samples = parts.then(|| {
+        let total: Vec<u32> = ends.iter().map(|end| end - first).collect();
+        let total = Counts::PerPixel(total);
+        FourParts::dealt(first, &total.uniform().map_or(total, Counts::Uniform))
+    });
     frame.optional = Optional::new(recorded, part_samples, tapped)?;
     frame.check()
-}
-
-/// Samples whose index leaves `part` when divided by 4.
-fn samples_of(part: u32, first: u32, ends: &[u32]) -> Counts {
-    let below = |end: u32| end / 4 + u32::from(end % 4 > part);
-    let counts: Vec<u32> = ends.iter().map(|end| below(*end) - below(first)).collect();
-    let counts = Counts::PerPixel(counts);
-    counts.uniform().map_or(counts, Counts::Uniform)
 }

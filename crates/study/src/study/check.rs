@@ -4,6 +4,7 @@ mod compare;
 mod frames;
 mod limits;
 mod sequence;
+mod statistics;
 
 use std::collections::BTreeSet;
 
@@ -18,6 +19,7 @@ use compare::check_comparisons;
 use frames::check_frames;
 use limits::{bad_replicates, check_limits};
 use sequence::check_sequences;
+use statistics::check_statistics;
 
 impl Study {
     /// Refuses values without meaning; `file` is named in messages.
@@ -63,6 +65,7 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), StudyError> 
         return wrong("depth", key("depth"), study.depth.to_string(), "1 to 1024");
     }
     check_limits(study, lines)?;
+    check_statistics(study, lines)?;
     // Truth that is exact or comes with its frames is not rendered: nobody is asked how, and the default may be anything.
     let rendered = |s: &SceneSpec| matches!(s.source, SceneSource::Builtin(_) | SceneSource::Gltf(_));
     if study.scenes.iter().any(rendered) || lines.of_table("reference").is_some() {

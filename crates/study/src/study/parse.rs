@@ -39,6 +39,8 @@ struct Raw {
     #[serde(default)]
     feature_hit: FeatureHit,
     #[serde(default)]
+    statistics: Vec<String>,
+    #[serde(default)]
     seed: u64,
     #[serde(default = "default_sampling")]
     sampling: Sampling,
@@ -198,6 +200,7 @@ impl Study {
             depth: raw.depth,
             filter: raw.filter,
             feature_hit: raw.feature_hit,
+            statistics: raw.statistics,
             seed: raw.seed,
             sampling: raw.sampling,
             reference,
