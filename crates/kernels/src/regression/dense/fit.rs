@@ -188,6 +188,13 @@ impl Job<'_> {
         self.prediction(tile, sums)
     }
 
+    /// Columns of the window around a column of the image, or around the last one.
+    fn columns(&self, x: usize) -> usize {
+        let (reach, last) = (self.layout.weighting.window, self.layout.weighting.width - 1);
+        let x = x.min(last);
+        (x + reach).min(last) - x.saturating_sub(reach) + 1
+    }
+
     /// Copies features and colours, 0 beyond the image.
     fn fill_area(&self, tile: Tile, to: &mut [f64]) {
         let (grid, reach) = (&self.area, self.layout.weighting.window);
@@ -309,7 +316,7 @@ impl Kernel for Model<'_, '_> {
             let mut x = 0;
             while x < self.tile.width {
                 self.sum(s, row, x);
-                self.solve::<S>(x);
+                self.solve::<S>(row, x);
                 x += S::DOUBLES;
             }
             self.predict(s, row);
@@ -367,14 +374,16 @@ impl Model<'_, '_> {
 
     /// Coefficients of the models of a vector of pixels.
     #[inline(always)]
-    fn solve<S: Simd>(&mut self, x: usize) {
+    fn solve<S: Simd>(&mut self, row: usize, x: usize) {
+        let tall = self.rows(row).count();
         let Self { job, view, normal, .. } = self;
         let (slots, wide) = (job.slots, job.layout.wide);
         let count = 3 + slots.features;
         let absent = if job.fit.positions { 0..0 } else { 1..3 };
         for lane in 0..S::DOUBLES {
             normal.fill(&slots, |i| view.moments.get(i * S::DOUBLES + lane));
-            let coefficients = normal.dropped(count, absent.clone());
+            let coefficients =
+                normal.dropped(count, absent.clone(), tall * job.columns(self.tile.x + x + lane));
             for (j, three) in coefficients.iter().enumerate().take(count) {
                 for (c, value) in three.iter().enumerate() {
                     view.coefficients.set((3 * j + c) * wide + x + lane, *value);

@@ -144,33 +144,27 @@ fn range(values: impl Iterator<Item = f32>) -> f64 {
     most - least
 }
 
-/// The rows' predictions with columns dropped by pivoting: those whose weighted square is below 1.7e-12 of the largest, and,
-/// in units of their norm, those of which 1e-10 or less is left after the others.
+/// The rows' predictions with columns dropped by pivoting: those of which less is left after the others than rounding of `f32`
+/// leaves of the largest.
 fn dropped(rows: &[Vec<f64>], right: &[[f64; 3]], weights: &[f64]) -> Vec<[f64; 3]> {
-    let count = rows[0].len();
-    let squares: Vec<f64> =
-        (0..count).map(|j| rows.iter().zip(weights).map(|(row, w)| w * row[j] * row[j]).sum()).collect();
-    let largest = squares.iter().copied().fold(0.0, f64::max);
-    let mut left: Vec<(usize, Vec<f64>)> = (0..count)
-        .filter(|&j| squares[j] > 0.0 && squares[j] >= 1.7e-12 * largest)
-        .map(|j| {
-            let norm = squares[j].sqrt();
-            (j, rows.iter().zip(weights).map(|(row, w)| w.sqrt() * row[j] / norm).collect())
-        })
+    let square = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
+    let mut left: Vec<Vec<f64>> = (0..rows[0].len())
+        .map(|j| rows.iter().zip(weights).map(|(row, w)| w.sqrt() * row[j]).collect())
         .collect();
-    // Modified Gram-Schmidt, the longest first, and twice.
+    let largest = left.iter().map(|v| square(v)).fold(0.0, f64::max);
+    // Gram-Schmidt, the longest first, and twice.
     let mut basis: Vec<Vec<f64>> = Vec::new();
     while !left.is_empty() {
-        let norm = |v: &[f64]| v.iter().map(|v| v * v).sum::<f64>();
         let longest =
-            (0..left.len()).max_by(|&a, &b| norm(&left[a].1).total_cmp(&norm(&left[b].1)).then(b.cmp(&a)));
-        let (_, mut column) = left.remove(longest.unwrap_or(0));
-        let length = norm(&column);
-        if length <= 1e-10 {
+            (0..left.len()).max_by(|&a, &b| square(&left[a]).total_cmp(&square(&left[b])).then(b.cmp(&a)));
+        let mut column = left.remove(longest.unwrap_or(0));
+        let length = square(&column);
+        let share = (rows.len() as f64 - basis.len() as f64).max(0.0) / rows.len() as f64;
+        if length <= 0.0 || length < f64::from(f32::EPSILON).powi(2) * largest * share {
             break;
         }
         column.iter_mut().for_each(|v| *v /= length.sqrt());
-        for (_, other) in &mut left {
+        for other in &mut left {
             for _ in 0..2 {
                 let along: f64 = other.iter().zip(&column).map(|(a, b)| a * b).sum();
                 other.iter_mut().zip(&column).for_each(|(a, b)| *a -= along * b);

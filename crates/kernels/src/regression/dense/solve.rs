@@ -2,10 +2,9 @@
 
 use super::moments::Slots;
 
-/// Squares of columns below this share of the largest are none: 1.2e-6 of the largest column, squared.
-const LEAST_SQUARE: f64 = 1.7e-12;
-/// What must be left of a column's square, in units of it, after the others have taken their part.
-const LEAST_PIVOT: f64 = 1e-10;
+/// What must be left of a column's square after the others have taken their part, in units of the largest square: the square
+/// of the precision of `f32`, in which the program decides.
+const LEAST_PIVOT: f64 = (f32::EPSILON as f64) * (f32::EPSILON as f64);
 
 /// Most columns of a model.
 pub(super) const MOST: usize = 3 + super::params::MAX_FEATURES;
@@ -43,32 +42,29 @@ impl Normal {
         }
     }
 
-    /// Coefficients of the first `count` columns but for those marked as absent: columns that the others make up are dropped.
-    pub fn dropped(&mut self, count: usize, absent: std::ops::Range<usize>) -> [[f64; 3]; MOST] {
+    /// Coefficients of the first `count` columns but for those marked as absent, of a window of `pixels`. Column by column, the one
+    /// of which most is left first, until what is left is rounding to a solver that reflects columns of `f32`; the others are
+    /// dropped.
+    pub fn dropped(
+        &mut self,
+        count: usize,
+        absent: std::ops::Range<usize>,
+        pixels: usize,
+    ) -> [[f64; 3]; MOST] {
         let mut out = [[0.0; 3]; MOST];
         let mut columns = [0; MOST];
-        let mut left = 0;
-        let largest = (0..count).map(|j| self.square[j][j]).fold(0.0, f64::max);
-        for j in 0..count {
-            let square = self.square[j][j];
-            if square > 0.0 && square >= LEAST_SQUARE * largest && !absent.contains(&j) {
-                columns[left] = j;
-                left += 1;
-            }
+        let mut present = 0;
+        for j in (0..count).filter(|j| !absent.contains(j)) {
+            columns[present] = j;
+            present += 1;
         }
-        let columns = &mut columns[..left];
-        // At unit diagonal; squares are above 0.
-        let mut unit = [0.0; MOST];
-        columns.iter().for_each(|&j| unit[j] = 1.0 / self.square[j][j].sqrt());
+        let columns = &mut columns[..present];
         for (i, &a) in columns.iter().enumerate() {
-            for &b in &columns[i..] {
-                let value = self.square[a][b] * unit[a] * unit[b];
-                self.square[a][b] = value;
-                self.square[b][a] = value;
+            for &b in &columns[i + 1..] {
+                self.square[b][a] = self.square[a][b];
             }
-            self.right[a] = self.right[a].map(|v| v * unit[a]);
         }
-        // Column by column, the one of which most is left first.
+        let largest = columns.iter().map(|&j| self.square[j][j]).fold(0.0, f64::max);
         let mut rank = 0;
         while rank < columns.len() {
             let mut best = rank;
@@ -81,7 +77,9 @@ impl Normal {
             columns.swap(rank, best);
             let pivot = columns[rank];
             let left = self.square[pivot][pivot];
-            if left <= LEAST_PIVOT {
+            // Its threshold falls with the rows that are left to it.
+            let rows = pixels.saturating_sub(rank) as f64 / pixels as f64;
+            if left <= 0.0 || left < LEAST_PIVOT * largest * rows {
                 break;
             }
             for k in rank + 1..columns.len() {
@@ -106,10 +104,8 @@ impl Normal {
                     value[c] -= self.square[a][b] * out[b][c];
                 }
             }
+            // A pivot, above 0.
             out[a] = value.map(|v| v / self.square[a][a]);
-        }
-        for &j in &columns[..rank] {
-            out[j] = out[j].map(|v| v * unit[j]);
         }
         out
     }
