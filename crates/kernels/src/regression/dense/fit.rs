@@ -3,9 +3,10 @@
 use super::distances::{Distances, Group};
 use super::guide::{GROUP, Layout, lines, scaled_variances};
 use super::moments::{Area, Row, Slots, add_row};
-use super::params::{Fit, Join, Planes};
+use super::params::{Fit, Join, Planes, Solver};
 use super::predict::{Line, Models};
 use super::solve::Normal;
+use super::units;
 use crate::engine::{
     Copies, Grid, InstructionSet, Kernel, LINE, MAX_LANES, Plane, Scratch, Simd, Tile, Window, for_each_tile,
     map_tiles,
@@ -21,6 +22,8 @@ struct Job<'a> {
     variances: Vec<Vec<f32>>,
     layout: Layout,
     slots: Slots,
+    /// Of the features, over the image.
+    ranges: Vec<f64>,
     /// Copies of features and colours with the window around the tile; sums of predictions alike.
     area: Grid,
     level: InstructionSet,
@@ -43,6 +46,7 @@ pub(super) fn regress(fit: &Fit, planes: &Planes<'_>, level: InstructionSet) -> 
         planes,
         variances: scaled_variances(&weighting, &guides),
         slots: Slots { features: planes.features.len(), side: layout.side() },
+        ranges: units::ranges(planes),
         area: Grid::new(reach, reach, layout.wide + 2 * reach + MAX_LANES, TILE.1 + 2 * reach),
         layout,
         level,
@@ -131,8 +135,9 @@ impl Job<'_> {
         ]
     }
 
-    /// Values of the parts: area, sums of predictions, a row of a window, sums of models, coefficients, base.
-    fn double_sizes(&self) -> [usize; 6] {
+    /// Values of the parts: area, sums of predictions, a row of a window, sums of models, coefficients, base,
+    /// units.
+    fn double_sizes(&self) -> [usize; 7] {
         [
             self.slots.right() * self.area.plane,
             4 * self.area.plane,
@@ -140,6 +145,7 @@ impl Job<'_> {
             lines(self.slots.sums() * MAX_LANES),
             3 * (3 + self.slots.features) * self.layout.wide,
             3 * self.layout.wide,
+            if self.fit.solver == Solver::MinimalNorm { self.slots.features * self.units() } else { 0 },
         ]
     }
 
@@ -149,9 +155,14 @@ impl Job<'_> {
         self.layout.side() * self.layout.side() * self.layout.wide + LINE
     }
 
+    /// Units of one feature in a tile.
+    fn units(&self) -> usize {
+        TILE.1 * self.layout.wide
+    }
+
     fn run(&self, memory: &mut Memory, tile: Tile) -> Prediction {
         let [guide, vertical, border, weights] = memory.single.parts(self.single_sizes());
-        let [area, sums, work, moments, coefficients, base] = memory.double.parts(self.double_sizes());
+        let [area, sums, work, moments, coefficients, base, units] = memory.double.parts(self.double_sizes());
         let weighting = &self.layout.weighting;
         let copies = Copies { width: weighting.width, height: weighting.height, tile };
         let channels: Vec<_> =
@@ -159,6 +170,13 @@ impl Job<'_> {
         self.layout.fill_guide(&copies, &channels, guide);
         self.layout.fill_border(tile, border);
         self.fill_area(tile, area);
+        if self.fit.solver == Solver::MinimalNorm {
+            for (j, plane) in self.planes.features.iter().enumerate() {
+                let size = (weighting.width, weighting.height);
+                let to = (&mut units[j * self.units()..], self.layout.wide);
+                units::fill(plane, size, (tile, weighting.window), self.ranges[j], to);
+            }
+        }
         // Neighbours beyond the image are not visited.
         weights.fill(0.0);
         sums.fill(0.0);
@@ -184,7 +202,7 @@ impl Job<'_> {
             self.level.launch(Weigh { job: self, tile, group: &group, view: &mut view });
         }
         let mut normal = Normal::new();
-        self.level.launch(Model { job: self, tile, view: &mut view, normal: &mut normal });
+        self.level.launch(Model { job: self, tile, view: &mut view, normal: &mut normal, units });
         self.prediction(tile, sums)
     }
 
@@ -305,6 +323,7 @@ struct Model<'a, 'b> {
     tile: Tile,
     view: &'a mut View<'b>,
     normal: &'a mut Normal,
+    units: &'a [f64],
 }
 
 impl Kernel for Model<'_, '_> {
@@ -382,8 +401,19 @@ impl Model<'_, '_> {
         let absent = if job.fit.positions { 0..0 } else { 1..3 };
         for lane in 0..S::DOUBLES {
             normal.fill(&slots, |i| view.moments.get(i * S::DOUBLES + lane));
-            let coefficients =
-                normal.dropped(count, absent.clone(), tall * job.columns(self.tile.x + x + lane));
+            let coefficients = match job.fit.solver {
+                Solver::Dropped => {
+                    let pixels = tall * job.columns(self.tile.x + x + lane);
+                    normal.dropped(count, absent.clone(), pixels)
+                }
+                Solver::MinimalNorm => {
+                    // Positions by the full window's side, also where it is cut.
+                    let side = (2 * job.layout.weighting.window).max(1) as f64;
+                    let at = row * wide + x + lane;
+                    let unit = |j: usize| j.checked_sub(3).map_or(side, |j| self.units[j * job.units() + at]);
+                    normal.minimal_norm(count, absent.clone(), unit)
+                }
+            };
             for (j, three) in coefficients.iter().enumerate().take(count) {
                 for (c, value) in three.iter().enumerate() {
                     view.coefficients.set((3 * j + c) * wide + x + lane, *value);

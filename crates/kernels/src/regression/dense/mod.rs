@@ -28,11 +28,13 @@ mod error;
 mod fit;
 mod guide;
 mod means;
+mod minimal_norm;
 mod moments;
 pub mod naive;
 mod params;
 mod predict;
 mod solve;
+mod units;
 
 pub use crate::nlm::Channel;
 pub use error::DenseError;
