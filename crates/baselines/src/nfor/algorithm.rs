@@ -3,7 +3,7 @@
 use noisefloor_denoiser::{DenoiseError, StageTimer};
 use noisefloor_frame::{Frame, Image};
 
-use super::candidates::{Color, candidate, filter_maps};
+use super::candidates::{Color, Errors, candidate, filter_errors};
 use super::features::{combine, noisy, prefilter};
 use super::half;
 use super::kernel::{Guided, Sizes, regress};
@@ -18,8 +18,7 @@ pub(super) struct Done {
     /// The mean of the selected halves, before the last regression: what the error estimate is about.
     pub selected: Image,
     pub selection: Selection,
-    /// Filtered estimates of the candidates' squared errors, the narrower first.
-    pub errors: [Image; 2],
+    pub errors: Errors,
     /// Features of the last regression.
     pub features: Vec<Image>,
 }
@@ -43,7 +42,7 @@ pub(super) fn denoise(
     let run = |k: f64| candidate(color, &features, k, params, settings);
     let candidates = [run(params.narrow_k)?, run(params.wide_k)?];
     timer.finish("candidates");
-    let errors = filter_maps(color, candidates.each_ref().map(|candidate| &candidate.error), params)?;
+    let errors = filter_errors(color, &candidates, params, settings)?;
     timer.finish("errors");
 
     // Step 3: the less wrong one in each pixel and channel, as a smooth share.

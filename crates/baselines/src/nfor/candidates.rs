@@ -51,10 +51,7 @@ pub(super) fn candidate(
         regress(image, guide, features, &sizes, settings)
     };
     let halves = [one(a, b, of_b)?, one(b, a, of_a)?];
-    let mut error = squared_error(color, &halves);
-    if settings.negative_error == NegativeError::Clamped {
-        error = error.map(|v| v.max(0.0));
-    }
+    let error = squared_error(color, &halves);
     Ok(Candidate { halves, error })
 }
 
@@ -76,6 +73,32 @@ pub(super) fn squared_error(color: &Color<'_>, halves: &[Image; 2]) -> Image {
         }
     }
     out
+}
+
+/// Estimates of both candidates' errors, filtered, the narrower first.
+#[derive(Debug, Clone)]
+pub(super) struct Errors {
+    /// As they are.
+    pub estimates: [Image; 2],
+    /// What is compared.
+    pub compared: [Image; 2],
+}
+
+/// Filters the errors of both candidates. A clamped one is as good for a comparison, but no estimate: too large.
+pub(super) fn filter_errors(
+    color: &Color<'_>,
+    candidates: &[Candidate; 2],
+    params: &Params,
+    settings: &Settings,
+) -> Result<Errors, DenoiseError> {
+    let [narrow, wide] = candidates.each_ref().map(|candidate| &candidate.error);
+    if settings.negative_error == NegativeError::Kept {
+        let estimates = filter_maps(color, [narrow, wide], params)?;
+        return Ok(Errors { compared: estimates.clone(), estimates });
+    }
+    let [above, above_wide] = [narrow, wide].map(|error| error.map(|v| v.max(0.0)));
+    let [narrow, wide, above, above_wide] = filter_maps(color, [narrow, wide, &above, &above_wide], params)?;
+    Ok(Errors { estimates: [narrow, wide], compared: [above, above_wide] })
 }
 
 /// Filters maps with weights from the colour.

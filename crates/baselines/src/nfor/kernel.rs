@@ -9,8 +9,8 @@ use noisefloor_kernels::regression::dense::{
 use super::ID;
 use super::settings::Settings;
 
-/// Largest magnitude of a colour or feature; ours: squares, and squares of those, are within the range of the type.
-pub(super) const MOST: f32 = 1e15;
+/// Largest magnitude of a colour or feature; ours: a tenth of what the kernels take, as means are rounded.
+pub(super) const MOST: f32 = 1e14;
 /// Largest variance or squared error.
 pub(super) const MOST_SQUARE: f32 = 1e30;
 /// ε of the program.

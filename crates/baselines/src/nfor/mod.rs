@@ -127,7 +127,7 @@ impl Denoiser for Nfor {
 /// Images that show how it came about.
 fn describe(output: &mut Output, done: &Done) {
     output.diagnose("share of the wider candidate", Unit::None, done.selection.wide.clone());
-    let [narrow, wide] = &done.errors;
+    let [narrow, wide] = &done.errors.compared;
     output.diagnose("error estimate, narrow", Unit::RadianceSquared, narrow.clone());
     output.diagnose("error estimate, wide", Unit::RadianceSquared, wide.clone());
     for (i, feature) in done.features.iter().enumerate() {

@@ -3,7 +3,7 @@
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
 
-use super::candidates::{Candidate, Color, filter_maps};
+use super::candidates::{Candidate, Color, Errors, filter_maps};
 use super::params::Params;
 
 /// What came of the choice.
@@ -17,20 +17,21 @@ pub(super) struct Selection {
     pub error: Image,
 }
 
-/// t and R_A, R_B from both candidates and their filtered errors, the narrower first.
+/// t and R_A, R_B from both candidates, the narrower first, and their filtered errors.
 pub(super) fn select(
     color: &Color<'_>,
     candidates: &[Candidate; 2],
-    errors: &[Image; 2],
+    errors: &Errors,
     params: &Params,
 ) -> Result<Selection, DenoiseError> {
-    let choice = errors[0].zip_map(&errors[1], |narrow, wide| if narrow < wide { 0.0 } else { 1.0 });
+    let [narrow, wide] = &errors.compared;
+    let choice = narrow.zip_map(wide, |narrow, wide| if narrow < wide { 0.0 } else { 1.0 });
     let [wide] = filter_maps(color, [&choice], params)?;
     // A mean of zeros and ones but for rounding.
     let wide = wide.map(|t| t.clamp(0.0, 1.0));
     let [narrow, other] = candidates;
     let halves = [0, 1].map(|half| mixed(&narrow.halves[half], &other.halves[half], &wide));
-    let error = mixed(&errors[0], &errors[1], &wide);
+    let error = mixed(&errors.estimates[0], &errors.estimates[1], &wide);
     Ok(Selection { wide, halves, error })
 }
 
