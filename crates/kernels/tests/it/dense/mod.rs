@@ -1,5 +1,6 @@
 mod bits;
 mod oracle;
+mod properties;
 
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::dense::*;
