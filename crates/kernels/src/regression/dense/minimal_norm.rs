@@ -1,5 +1,7 @@
 //! The solution of least norm of a model's normal equations.
 
+#![expect(clippy::needless_range_loop, reason = "indices of matrices, as formulas have them")]
+
 use super::solve::{MOST, Normal};
 
 /// Share of the largest eigenvalue up to which others count as 0.
@@ -105,7 +107,8 @@ impl System {
                 inverse += column[i] * column[i];
             }
         }
-        if !(LEAST * sum * inverse < 1.0) {
+        let regular = LEAST * sum * inverse < 1.0;
+        if !regular {
             return None;
         }
         let mut out = self.right;

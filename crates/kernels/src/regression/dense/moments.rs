@@ -3,6 +3,8 @@
 //! Columns are [1, dx, dy, differences of features], right sides the three colours. dx and dy are the same in every lane: per row
 //! of the window only Σ w·z and Σ w·dx·z are summed, and dy is a factor on the sums of its row.
 
+#![expect(clippy::needless_range_loop, reason = "fixed counts, unrolled; iterators may end up as calls")]
+
 use crate::engine::{Plane, Simd};
 
 /// Where planes and sums lie, for `n` features.
@@ -27,9 +29,9 @@ impl Slots {
         self.features + 3
     }
 
-    /// Values of one row of the window, per lane.
+    /// Values of one row of the window, per lane: w, w·dx, differences.
     pub fn row(&self) -> usize {
-        (self.left() + self.right()) * self.side
+        self.left() * self.side
     }
 
     /// Sums of a model: positions, then for each factor on the left all on the right, then those of w·dy.
@@ -77,75 +79,76 @@ pub(super) fn add_row<S: Simd>(
 ) {
     let lanes = S::DOUBLES;
     let stride = slots.side * lanes;
-    let right = slots.left() * stride;
-    // Neighbours that have a weight in some lane.
-    let mut count = 0;
+    let mut any = false;
     let (mut one, mut by_x, mut by_xx) = (s.splat_double(0.0), s.splat_double(0.0), s.splat_double(0.0));
     for i in 0..slots.side {
         let w = s.load_widened(weights, row.weights + i * row.step);
-        if !s.any_double(w) {
-            continue;
-        }
+        any |= s.any_double(w);
         let dx = s.splat_double((i as isize - row.reach) as f64);
         let wx = s.mul_doubles(w, dx);
         one = s.add_doubles(one, w);
         by_x = s.add_doubles(by_x, wx);
         by_xx = s.fma_doubles(wx, dx, by_xx);
-        let at = count * lanes;
-        s.store_doubles(work, at, w);
-        s.store_doubles(work, stride + at, wx);
-        for j in 0..slots.features {
-            let plane = j * area.plane;
-            let here = s.load_doubles(area.planes, plane + row.here);
-            let difference = s.sub_doubles(s.load_doubles(area.planes, plane + row.there + i), here);
-            s.store_doubles(work, (2 + j) * stride + at, s.mul_doubles(w, difference));
-            s.store_doubles(work, right + j * stride + at, difference);
-        }
-        for c in 0..3 {
-            let plane = (slots.features + c) * area.plane;
-            let color = s.load_doubles(area.planes, plane + row.there + i);
-            s.store_doubles(work, right + (slots.features + c) * stride + at, color);
-        }
-        count += 1;
+        s.store_doubles(work, i * lanes, w);
+        s.store_doubles(work, stride + i * lanes, wx);
     }
-    if count == 0 {
+    if !any {
         return;
     }
-    let dy = s.splat_double(row.dy as f64);
-    let by_y = s.mul_doubles(one, dy);
-    for (i, value) in
-        [one, by_x, by_xx, by_y, s.mul_doubles(by_x, dy), s.mul_doubles(by_y, dy)].into_iter().enumerate()
-    {
-        let old = s.load_doubles(sums, i * lanes);
-        s.store_doubles(sums, i * lanes, s.add_doubles(old, value));
+    for j in 0..slots.features {
+        let here = s.load_doubles(area.planes, j * area.plane + row.here);
+        let (from, to) = (j * area.plane + row.there, (2 + j) * stride);
+        for i in 0..slots.side {
+            let there = s.load_doubles(area.planes, from + i);
+            s.store_doubles(work, to + i * lanes, s.sub_doubles(there, here));
+        }
     }
-    let mut block = Block { slots, count, stride, dy };
+    let dy = s.splat_double(row.dy as f64);
+    let of_y = [s.mul_doubles(one, dy), s.mul_doubles(by_x, dy), s.mul_doubles(s.mul_doubles(one, dy), dy)];
+    for (i, value) in [one, by_x, by_xx].into_iter().chain(of_y).enumerate() {
+        add(s, sums, i * lanes, value);
+    }
+    let row = Products { slots, area, there: row.there, stride, dy };
     let mut left = 0;
     while left < slots.left() {
         let tall = (slots.left() - left).min(3);
         // Differences times differences: the upper half.
         let mut from = left.saturating_sub(2);
-        while from < slots.right() {
-            let wide = (slots.right() - from).min(4);
-            block.any(s, (left, tall), (from, wide), work, sums);
+        while from < slots.features {
+            // At most four at a time, and three and three rather than four and two.
+            let wide = match slots.features - from {
+                rest @ 1..=4 => rest,
+                5 | 6 => 3,
+                _ => 4,
+            };
+            row.differences(s, (left, tall), (from, wide), work, sums);
             from += wide;
         }
+        row.colors(s, (left, tall), work, sums);
         left += tall;
     }
 }
 
+#[inline(always)]
+fn add<S: Simd>(s: S, sums: &mut Plane<f64>, at: usize, value: S::D) {
+    let old = s.load_doubles(sums, at);
+    s.store_doubles(sums, at, s.add_doubles(old, value));
+}
+
 /// Sums of products over the neighbours of one row.
-struct Block<'a, S: Simd> {
+struct Products<'a, S: Simd> {
     slots: &'a Slots,
-    count: usize,
+    area: Area<'a>,
+    there: usize,
     stride: usize,
     dy: S::D,
 }
 
-impl<S: Simd> Block<'_, S> {
+impl<S: Simd> Products<'_, S> {
+    /// Of some factors on the left with some differences.
     #[inline(always)]
-    fn any(
-        &mut self,
+    fn differences(
+        &self,
         s: S,
         (left, tall): (usize, usize),
         (from, wide): (usize, usize),
@@ -153,25 +156,32 @@ impl<S: Simd> Block<'_, S> {
         sums: &mut Plane<f64>,
     ) {
         match (tall, wide) {
-            (3, 4) => self.of::<3, 4>(s, left, from, work, sums),
-            (3, 3) => self.of::<3, 3>(s, left, from, work, sums),
-            (3, 2) => self.of::<3, 2>(s, left, from, work, sums),
-            (3, _) => self.of::<3, 1>(s, left, from, work, sums),
-            (2, 4) => self.of::<2, 4>(s, left, from, work, sums),
-            (2, 3) => self.of::<2, 3>(s, left, from, work, sums),
-            (2, 2) => self.of::<2, 2>(s, left, from, work, sums),
-            (2, _) => self.of::<2, 1>(s, left, from, work, sums),
-            (_, 4) => self.of::<1, 4>(s, left, from, work, sums),
-            (_, 3) => self.of::<1, 3>(s, left, from, work, sums),
-            (_, 2) => self.of::<1, 2>(s, left, from, work, sums),
-            _ => self.of::<1, 1>(s, left, from, work, sums),
+            (3, 4) => self.of::<3, 4, false>(s, left, from, work, sums),
+            (3, 3) => self.of::<3, 3, false>(s, left, from, work, sums),
+            (3, 2) => self.of::<3, 2, false>(s, left, from, work, sums),
+            (3, _) => self.of::<3, 1, false>(s, left, from, work, sums),
+            // The last rows: no more differences than they are themselves.
+            (2, 2) => self.of::<2, 2, false>(s, left, from, work, sums),
+            (2, _) => self.of::<2, 1, false>(s, left, from, work, sums),
+            _ => self.of::<1, 1, false>(s, left, from, work, sums),
         }
     }
 
-    /// `L` factors on the left with `R` on the right, their sums in registers.
+    /// Of some factors on the left with the colours.
     #[inline(always)]
-    fn of<const L: usize, const R: usize>(
-        &mut self,
+    fn colors(&self, s: S, (left, tall): (usize, usize), work: &Plane<f64>, sums: &mut Plane<f64>) {
+        let from = self.slots.features;
+        match tall {
+            3 => self.of::<3, 3, true>(s, left, from, work, sums),
+            2 => self.of::<2, 3, true>(s, left, from, work, sums),
+            _ => self.of::<1, 3, true>(s, left, from, work, sums),
+        }
+    }
+
+    /// `L` factors on the left with `R` on the right, which are colours or differences; the sums in registers.
+    #[inline(always)]
+    fn of<const L: usize, const R: usize, const COLORS: bool>(
+        &self,
         s: S,
         left: usize,
         from: usize,
@@ -181,14 +191,22 @@ impl<S: Simd> Block<'_, S> {
         let lanes = S::DOUBLES;
         let zero = s.splat_double(0.0);
         let mut sum = [[zero; R]; L];
-        let (a, b) = (left * self.stride, (self.slots.left() + from) * self.stride);
-        for k in 0..self.count {
+        let first = left == 0;
+        for k in 0..self.slots.side {
             let mut factors = [zero; L];
-            for (i, factor) in factors.iter_mut().enumerate() {
-                *factor = s.load_doubles(work, a + i * self.stride + k * lanes);
+            for i in 0..L {
+                factors[i] = s.load_doubles(work, (left + i) * self.stride + k * lanes);
+                // w and w·dx are there, of differences what is weighed.
+                if !first || i >= 2 {
+                    factors[i] = s.mul_doubles(factors[i], s.load_doubles(work, k * lanes));
+                }
             }
             for j in 0..R {
-                let value = s.load_doubles(work, b + j * self.stride + k * lanes);
+                let value = if COLORS {
+                    s.load_doubles(self.area.planes, (from + j) * self.area.plane + self.there + k)
+                } else {
+                    s.load_doubles(work, (2 + from + j) * self.stride + k * lanes)
+                };
                 for i in 0..L {
                     sum[i][j] = s.fma_doubles(factors[i], value, sum[i][j]);
                 }
@@ -196,13 +214,10 @@ impl<S: Simd> Block<'_, S> {
         }
         for i in 0..L {
             for j in 0..R {
-                let at = self.slots.sum(left + i, from + j) * lanes;
-                let old = s.load_doubles(sums, at);
-                s.store_doubles(sums, at, s.add_doubles(old, sum[i][j]));
-                if left + i == 0 {
-                    let at = self.slots.sum(self.slots.left(), from + j) * lanes;
-                    let old = s.load_doubles(sums, at);
-                    s.store_doubles(sums, at, s.fma_doubles(sum[i][j], self.dy, old));
+                add(s, sums, self.slots.sum(left + i, from + j) * lanes, sum[i][j]);
+                if first && i == 0 {
+                    let by_y = s.mul_doubles(sum[i][j], self.dy);
+                    add(s, sums, self.slots.sum(self.slots.left(), from + j) * lanes, by_y);
                 }
             }
         }

@@ -1,5 +1,7 @@
 //! What models say of the pixels of their windows.
 
+#![expect(clippy::needless_range_loop, reason = "fixed counts, unrolled; iterators may end up as calls")]
+
 use super::moments::Area;
 use crate::engine::{Plane, Simd};
 
