@@ -9,16 +9,24 @@ const LEAST_PIVOT: f64 = (f32::EPSILON as f64) * (f32::EPSILON as f64);
 /// Most columns of a model.
 pub(super) const MOST: usize = 3 + super::params::MAX_FEATURES;
 
+/// Values of a row that are computed at a time; divides [`MOST`].
+const BLOCK: usize = 4;
+
 /// Normal equations: Σ w·x·xᵀ, of which the upper half is read, and Σ w·x·y.
 #[derive(Clone, Debug)]
 pub(super) struct Normal {
     pub square: [[f64; MOST]; MOST],
     pub right: [[f64; 3]; MOST],
+    rows: [[[f64; BLOCK]; 1 + MOST / BLOCK]; MOST],
 }
 
 impl Normal {
     pub fn new() -> Self {
-        Self { square: [[0.0; MOST]; MOST], right: [[0.0; 3]; MOST] }
+        Self {
+            square: [[0.0; MOST]; MOST],
+            right: [[0.0; 3]; MOST],
+            rows: [[[0.0; BLOCK]; 1 + MOST / BLOCK]; MOST],
+        }
     }
 
     /// Takes over one model's sums, see [`Slots::sum`].
@@ -45,68 +53,79 @@ impl Normal {
     /// Coefficients of the first `count` columns but for those marked as absent, of a window of `pixels`. Column by column, the one
     /// of which most is left first, until what is left is rounding to a solver that reflects columns of `f32`; the others are
     /// dropped.
+    #[inline(always)]
     pub fn dropped(
         &mut self,
         count: usize,
         absent: std::ops::Range<usize>,
         pixels: usize,
     ) -> [[f64; 3]; MOST] {
-        let mut out = [[0.0; 3]; MOST];
-        let mut columns = [0; MOST];
-        let mut present = 0;
-        for j in (0..count).filter(|j| !absent.contains(j)) {
-            columns[present] = j;
-            present += 1;
-        }
-        let columns = &mut columns[..present];
-        for (i, &a) in columns.iter().enumerate() {
-            for &b in &columns[i + 1..] {
-                self.square[b][a] = self.square[a][b];
-            }
-        }
-        let largest = columns.iter().map(|&j| self.square[j][j]).fold(0.0, f64::max);
+        self.fill_rows(count);
+        let rows = &mut self.rows[..count];
+        let blocks = count.div_ceil(BLOCK) + 1;
+        // Columns in the order of their pivots, and those that wait.
+        let mut pivots = [0; MOST];
+        let mut waits = [false; MOST];
+        waits[..count].fill(true);
+        waits[absent].fill(false);
+        let largest =
+            (0..count).filter(|&j| waits[j]).map(|j| rows[j][1 + j / BLOCK][j % BLOCK]).fold(0.0, f64::max);
         let mut rank = 0;
-        while rank < columns.len() {
-            let mut best = rank;
-            for k in rank + 1..columns.len() {
-                let (a, b) = (columns[k], columns[best]);
-                if self.square[a][a] > self.square[b][b] {
-                    best = k;
+        loop {
+            let mut best = (0.0, count);
+            for j in (0..count).filter(|&j| waits[j]) {
+                let left = rows[j][1 + j / BLOCK][j % BLOCK];
+                if left > best.0 {
+                    best = (left, j);
                 }
             }
-            columns.swap(rank, best);
-            let pivot = columns[rank];
-            let left = self.square[pivot][pivot];
-            // Its threshold falls with the rows that are left to it.
-            let rows = pixels.saturating_sub(rank) as f64 / pixels as f64;
-            if left <= 0.0 || left < LEAST_PIVOT * largest * rows {
+            let (left, pivot) = best;
+            // The threshold falls with the rows of the window that are left.
+            let share = pixels.saturating_sub(rank) as f64 / pixels as f64;
+            if pivot == count || left < LEAST_PIVOT * largest * share {
                 break;
             }
-            for k in rank + 1..columns.len() {
-                let a = columns[k];
-                let share = self.square[pivot][a] / left;
-                for &b in &columns[k..] {
-                    let value = self.square[a][b] - share * self.square[pivot][b];
-                    self.square[a][b] = value;
-                    self.square[b][a] = value;
-                }
-                for c in 0..3 {
-                    self.right[a][c] -= share * self.right[pivot][c];
-                }
-            }
+            waits[pivot] = false;
+            pivots[rank] = pivot;
             rank += 1;
-        }
-        for i in (0..rank).rev() {
-            let a = columns[i];
-            let mut value = self.right[a];
-            for &b in &columns[i + 1..rank] {
-                for c in 0..3 {
-                    value[c] -= self.square[a][b] * out[b][c];
+            let of_pivot = rows[pivot];
+            // Above 0.
+            let over = 1.0 / left;
+            for j in (0..count).filter(|&j| waits[j]) {
+                let share = of_pivot[1 + j / BLOCK][j % BLOCK] * over;
+                for (to, from) in rows[j][..blocks].iter_mut().zip(&of_pivot) {
+                    for i in 0..BLOCK {
+                        to[i] -= share * from[i];
+                    }
                 }
             }
-            // A pivot, above 0.
-            out[a] = value.map(|v| v / self.square[a][a]);
+        }
+        let mut out = [[0.0; 3]; MOST];
+        for i in (0..rank).rev() {
+            let a = pivots[i];
+            let mut value = [rows[a][0][0], rows[a][0][1], rows[a][0][2]];
+            for &b in &pivots[i + 1..rank] {
+                let factor = rows[a][1 + b / BLOCK][b % BLOCK];
+                for c in 0..3 {
+                    value[c] -= factor * out[b][c];
+                }
+            }
+            let over = 1.0 / rows[a][1 + a / BLOCK][a % BLOCK];
+            out[a] = value.map(|v| v * over);
         }
         out
+    }
+
+    /// Whole rows: the right sides in the first block, then the square.
+    #[inline(always)]
+    fn fill_rows(&mut self, count: usize) {
+        for i in 0..count {
+            let [x, y, z] = self.right[i];
+            self.rows[i][0] = [x, y, z, 0.0];
+            for j in 0..count {
+                let value = if j < i { self.square[j][i] } else { self.square[i][j] };
+                self.rows[i][1 + j / BLOCK][j % BLOCK] = value;
+            }
+        }
     }
 }
