@@ -3,11 +3,10 @@
 #![expect(clippy::needless_range_loop, reason = "indices of matrices, as formulas have them")]
 
 use super::solve::{MOST, Normal};
+use super::spectrum::Spectrum;
 
 /// Share of the largest eigenvalue up to which others count as 0.
 const LEAST: f64 = 1e-9;
-/// Most sweeps of rotations; after each the rest is about squared.
-const SWEEPS: usize = 30;
 
 impl Normal {
     /// Coefficients of the first `count` columns but for those marked as absent: the constant takes the weighted mean, and the
@@ -46,7 +45,7 @@ impl Normal {
             }
             system.right[i] = [0, 1, 2].map(|c| (self.right[a][c] - of_a * self.right[0][c]) / unit(a));
         }
-        let solution = system.solve(present);
+        let solution = system.solve(present, &mut self.spectrum);
         out[0] = self.right[0].map(|v| v / total);
         for (&a, solution) in columns.iter().zip(&solution) {
             out[a] = solution.map(|v| v / unit(a));
@@ -69,8 +68,8 @@ impl System {
         Self { matrix: [[0.0; MOST]; MOST], right: [[0.0; 3]; MOST] }
     }
 
-    fn solve(&self, size: usize) -> [[f64; 3]; MOST] {
-        self.regular(size).unwrap_or_else(|| self.truncated(size))
+    fn solve(&self, size: usize, spectrum: &mut Spectrum) -> [[f64; 3]; MOST] {
+        self.regular(size).unwrap_or_else(|| spectrum.solve(self.matrix, self.right, size, LEAST))
     }
 
     /// The solution if certainly no eigenvalue counts as 0: by the sum of the inverse's, the smallest is at least one over it, and
@@ -131,57 +130,5 @@ impl System {
             }
         }
         Some(out)
-    }
-
-    /// The solution without the directions of eigenvalues that count as 0, by Jacobi's rotations.
-    fn truncated(&self, size: usize) -> [[f64; 3]; MOST] {
-        let mut matrix = self.matrix;
-        let mut vectors = [[0.0; MOST]; MOST];
-        (0..size).for_each(|i| vectors[i][i] = 1.0);
-        for _ in 0..SWEEPS {
-            let mut done = true;
-            for i in 0..size {
-                for j in i + 1..size {
-                    let both = matrix[i][j];
-                    // Beside these it rounds away.
-                    if both.abs() <= 1e-16 * (matrix[i][i] * matrix[j][j]).abs().sqrt() {
-                        continue;
-                    }
-                    done = false;
-                    let half = (matrix[j][j] - matrix[i][i]) / (2.0 * both);
-                    let tangent = half.signum() / (half.abs() + (1.0 + half * half).sqrt());
-                    let cosine = 1.0 / (1.0 + tangent * tangent).sqrt();
-                    let sine = tangent * cosine;
-                    for k in 0..size {
-                        let (u, v) = (matrix[k][i], matrix[k][j]);
-                        matrix[k][i] = cosine * u - sine * v;
-                        matrix[k][j] = sine * u + cosine * v;
-                        let (u, v) = (vectors[i][k], vectors[j][k]);
-                        vectors[i][k] = cosine * u - sine * v;
-                        vectors[j][k] = sine * u + cosine * v;
-                    }
-                    for k in 0..size {
-                        let (u, v) = (matrix[i][k], matrix[j][k]);
-                        matrix[i][k] = cosine * u - sine * v;
-                        matrix[j][k] = sine * u + cosine * v;
-                    }
-                    matrix[i][j] = 0.0;
-                    matrix[j][i] = 0.0;
-                }
-            }
-            if done {
-                break;
-            }
-        }
-        let largest = (0..size).map(|i| matrix[i][i]).fold(0.0, f64::max);
-        let mut out = [[0.0; 3]; MOST];
-        for i in (0..size).filter(|&i| matrix[i][i] > LEAST * largest) {
-            for c in 0..3 {
-                let along: f64 =
-                    (0..size).map(|k| vectors[i][k] * self.right[k][c]).sum::<f64>() / matrix[i][i];
-                (0..size).for_each(|k| out[k][c] += along * vectors[i][k]);
-            }
-        }
-        out
     }
 }

@@ -34,6 +34,7 @@ pub mod naive;
 mod params;
 mod predict;
 mod solve;
+mod spectrum;
 mod units;
 
 pub use crate::nlm::Channel;

@@ -1,6 +1,7 @@
 //! Coefficients of one model from its moments.
 
 use super::moments::Slots;
+use super::spectrum::Spectrum;
 
 /// What must be left of a column's square after the others have taken their part, in units of the largest square: the square
 /// of the precision of `f32`, in which the program decides.
@@ -18,6 +19,7 @@ pub(super) struct Normal {
     pub square: [[f64; MOST]; MOST],
     pub right: [[f64; 3]; MOST],
     rows: [[[f64; BLOCK]; 1 + MOST / BLOCK]; MOST],
+    pub spectrum: Spectrum,
 }
 
 impl Normal {
@@ -26,6 +28,7 @@ impl Normal {
             square: [[0.0; MOST]; MOST],
             right: [[0.0; 3]; MOST],
             rows: [[[0.0; BLOCK]; 1 + MOST / BLOCK]; MOST],
+            spectrum: Spectrum::new(),
         }
     }
 
