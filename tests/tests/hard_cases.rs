@@ -56,6 +56,7 @@ fn settings(id: &str) -> Vec<Value> {
             all.push(json!({ "normal_test": false }));
         }
         // Its profiles are run by its own tests.
+        "nfor" => all.push(json!({ "depth": "scaled", "guide": "same-half", "feature_guide": "same-half" })),
         "rdfc" => all.push(json!({ "neighbors": 1 })),
         "dshl10" => {
             all.push(json!({ "demodulate": true }));

@@ -22,4 +22,5 @@ macro_rules! baselines {
 
 baselines! {
     dshl10,
+    nfor,
 }

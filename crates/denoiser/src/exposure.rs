@@ -51,6 +51,12 @@ impl Exposed {
         self.left
     }
 
+    /// What the frame's radiances are multiplied by: a power of two.
+    #[must_use]
+    pub fn factor(&self) -> f64 {
+        self.factor
+    }
+
     /// The input at this exposure.
     #[must_use]
     pub fn input<'a>(&'a self, input: &Input<'_>) -> Input<'a> {

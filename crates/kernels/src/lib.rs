@@ -14,5 +14,6 @@ pub mod flash_filter;
 pub mod inside;
 pub mod nlm;
 mod real;
+pub mod regression;
 
 pub use engine::{InstructionSet, NotForced, UnknownInstructionSet, Vectorised, mirror};

@@ -31,6 +31,8 @@ impl Simd for Avx2 {
     const LANES: usize = 8;
     type F = __m256;
     type M = __m256;
+    const DOUBLES: usize = 4;
+    type D = __m256d;
 
     operations! {
         load(plane: &Plane, at: usize) -> __m256 = _mm256_loadu_ps(plane.from(at, 8));
@@ -60,5 +62,15 @@ impl Simd for Avx2 {
             let scaled = _mm256_add_epi32(_mm256_castps_si256(value), shift);
             _mm256_and_ps(mask, _mm256_castsi256_ps(scaled))
         };
+        load_doubles(plane: &Plane<f64>, at: usize) -> __m256d = _mm256_loadu_pd(plane.from(at, 4));
+        load_widened(plane: &Plane, at: usize) -> __m256d = _mm256_cvtps_pd(_mm_loadu_ps(plane.from(at, 4)));
+        store_doubles(plane: &mut Plane<f64>, at: usize, value: __m256d) = _mm256_storeu_pd(plane.to(at, 4), value);
+        splat_double(value: f64) -> __m256d = _mm256_set1_pd(value);
+        add_doubles(a: __m256d, b: __m256d) -> __m256d = _mm256_add_pd(a, b);
+        sub_doubles(a: __m256d, b: __m256d) -> __m256d = _mm256_sub_pd(a, b);
+        mul_doubles(a: __m256d, b: __m256d) -> __m256d = _mm256_mul_pd(a, b);
+        fma_doubles(a: __m256d, b: __m256d, c: __m256d) -> __m256d = _mm256_fmadd_pd(a, b, c);
+        any_double(a: __m256d) -> bool
+            = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_NEQ_UQ>(a, _mm256_setzero_pd())) != 0;
     }
 }

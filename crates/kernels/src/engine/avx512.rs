@@ -30,6 +30,8 @@ impl Simd for Avx512 {
     const LANES: usize = 16;
     type F = __m512;
     type M = __mmask16;
+    const DOUBLES: usize = 8;
+    type D = __m512d;
 
     operations! {
         load(plane: &Plane, at: usize) -> __m512 = _mm512_loadu_ps(plane.from(at, 16));
@@ -71,5 +73,14 @@ impl Simd for Avx512 {
         };
         keep_scaled(mask: __mmask16, value: __m512, n: __m512) -> __m512
             = _mm512_maskz_scalef_ps(mask, value, n);
+        load_doubles(plane: &Plane<f64>, at: usize) -> __m512d = _mm512_loadu_pd(plane.from(at, 8));
+        load_widened(plane: &Plane, at: usize) -> __m512d = _mm512_cvtps_pd(_mm256_loadu_ps(plane.from(at, 8)));
+        store_doubles(plane: &mut Plane<f64>, at: usize, value: __m512d) = _mm512_storeu_pd(plane.to(at, 8), value);
+        splat_double(value: f64) -> __m512d = _mm512_set1_pd(value);
+        add_doubles(a: __m512d, b: __m512d) -> __m512d = _mm512_add_pd(a, b);
+        sub_doubles(a: __m512d, b: __m512d) -> __m512d = _mm512_sub_pd(a, b);
+        mul_doubles(a: __m512d, b: __m512d) -> __m512d = _mm512_mul_pd(a, b);
+        fma_doubles(a: __m512d, b: __m512d, c: __m512d) -> __m512d = _mm512_fmadd_pd(a, b, c);
+        any_double(a: __m512d) -> bool = _mm512_cmp_pd_mask::<_CMP_NEQ_UQ>(a, _mm512_setzero_pd()) != 0;
     }
 }

@@ -36,6 +36,6 @@ pub(crate) use patch::{Columns, Equal, PatchDistance, Weighted, across};
 pub(crate) use plane::Plane;
 pub(crate) use scratch::Scratch;
 pub(crate) use simd::{EXP2, LEAST_EXPONENT, MAX_LANES, ROUND, Simd};
-pub(crate) use tiles::TILE;
+pub(crate) use tiles::{TILE, map_tiles};
 pub use tiles::{Tile, TileRows, first_bad, for_each_tile};
 pub(crate) use window::{Block, Window};

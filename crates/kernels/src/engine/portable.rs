@@ -8,13 +8,15 @@ use super::{Plane, Simd};
 pub(crate) struct Portable;
 
 const LANES: usize = 8;
+/// Lanes of a vector of doubles.
+const DOUBLES: usize = 4;
 
 macro_rules! lanewise {
-    ($($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
+    ($lanes:ident: $($name:ident($($arg:ident: $of:ty),+) -> $result:ty = $value:expr;)+) => {$(
         #[inline(always)]
-        fn $name(self, $($arg: [$of; LANES]),+) -> [$result; LANES] {
-            let mut out = [<$result>::default(); LANES];
-            for i in 0..LANES {
+        fn $name(self, $($arg: [$of; $lanes]),+) -> [$result; $lanes] {
+            let mut out = [<$result>::default(); $lanes];
+            for i in 0..$lanes {
                 $(let $arg = $arg[i];)+
                 out[i] = $value;
             }
@@ -27,8 +29,10 @@ impl Simd for Portable {
     const LANES: usize = LANES;
     type F = [f32; LANES];
     type M = [bool; LANES];
+    const DOUBLES: usize = DOUBLES;
+    type D = [f64; DOUBLES];
 
-    lanewise! {
+    lanewise! { LANES:
         add(a: f32, b: f32) -> f32 = a + b;
         sub(a: f32, b: f32) -> f32 = a - b;
         mul(a: f32, b: f32) -> f32 = a * b;
@@ -42,6 +46,38 @@ impl Simd for Portable {
         keep(mask: bool, value: f32) -> f32 = if mask { value } else { 0.0 };
         keep_scaled(mask: bool, value: f32, n: f32) -> f32 =
             if mask { f32::from_bits(value.to_bits().wrapping_add(n.to_bits() << 23)) } else { 0.0 };
+    }
+
+    lanewise! { DOUBLES:
+        add_doubles(a: f64, b: f64) -> f64 = a + b;
+        sub_doubles(a: f64, b: f64) -> f64 = a - b;
+        mul_doubles(a: f64, b: f64) -> f64 = a * b;
+        fma_doubles(a: f64, b: f64, c: f64) -> f64 = a.mul_add(b, c);
+    }
+
+    #[inline(always)]
+    fn splat_double(self, value: f64) -> Self::D {
+        [value; DOUBLES]
+    }
+
+    #[inline(always)]
+    fn any_double(self, a: Self::D) -> bool {
+        a.iter().any(|&v| v != 0.0)
+    }
+
+    #[inline(always)]
+    fn load_doubles(self, plane: &Plane<f64>, at: usize) -> Self::D {
+        plane.read(at)
+    }
+
+    #[inline(always)]
+    fn load_widened(self, plane: &Plane, at: usize) -> Self::D {
+        plane.read::<DOUBLES>(at).map(f64::from)
+    }
+
+    #[inline(always)]
+    fn store_doubles(self, plane: &mut Plane<f64>, at: usize, value: Self::D) {
+        plane.write(at, value);
     }
 
     #[inline(always)]
@@ -61,8 +97,7 @@ impl Simd for Portable {
 
     #[inline(always)]
     fn load(self, plane: &Plane, at: usize) -> Self::F {
-        // SAFETY: the plane is vouched for; an array of f32 needs no more alignment than one.
-        unsafe { plane.from(at, LANES).cast::<Self::F>().read() }
+        plane.read(at)
     }
 
     #[inline(always)]
@@ -72,7 +107,6 @@ impl Simd for Portable {
 
     #[inline(always)]
     fn store(self, plane: &mut Plane, at: usize, value: Self::F) {
-        // SAFETY: as in `load`, writable.
-        unsafe { plane.to(at, LANES).cast::<Self::F>().write(value) }
+        plane.write(at, value);
     }
 }

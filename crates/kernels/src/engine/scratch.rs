@@ -6,16 +6,16 @@ use super::LINE;
 const SLACK: usize = 4 * LINE;
 
 /// Memory whose parts start at cache lines if their sizes are whole lines.
-pub(crate) struct Scratch {
-    memory: Vec<f32>,
+pub(crate) struct Scratch<T = f32> {
+    memory: Vec<T>,
     /// Index of the first cache line that starts in `memory`.
     start: usize,
 }
 
-impl Scratch {
+impl<T: Copy + Default> Scratch<T> {
     /// Room for parts of `size` values in total.
     pub fn new(size: usize) -> Self {
-        let memory = vec![0.0f32; size + LINE + SLACK];
+        let memory = vec![T::default(); size + LINE + SLACK];
         // `align_offset` may give up and say usize::MAX; alignment is for speed only.
         let start = memory.as_ptr().align_offset(64).min(LINE);
         Self { memory, start }
@@ -25,7 +25,7 @@ impl Scratch {
     ///
     /// # Panics
     /// If they are more than there is room for.
-    pub fn parts<const N: usize>(&mut self, sizes: [usize; N]) -> [&mut [f32]; N] {
+    pub fn parts<const N: usize>(&mut self, sizes: [usize; N]) -> [&mut [T]; N] {
         let mut rest = &mut self.memory[self.start..];
         let mut left = N;
         sizes.map(|size| {

@@ -23,6 +23,10 @@ pub(crate) trait Simd: Copy {
     type F: Copy;
     /// One truth value per lane.
     type M: Copy;
+    /// Values per vector of doubles; divides [`MAX_LANES`].
+    const DOUBLES: usize;
+    /// A vector of `f64`.
+    type D: Copy;
 
     /// The vector that starts at `at` of a plane; no alignment is needed.
     fn load(self, plane: &Plane, at: usize) -> Self::F;
@@ -56,6 +60,21 @@ pub(crate) trait Simd: Copy {
     /// value·2^n, with n as `split` gave it, where the mask holds; +0 elsewhere. The product must be a normal number
     /// where the mask holds.
     fn keep_scaled(self, mask: Self::M, value: Self::F, n: Self::F) -> Self::F;
+
+    /// The vector of doubles that starts at `at`; no alignment is needed.
+    fn load_doubles(self, plane: &Plane<f64>, at: usize) -> Self::D;
+    /// As many single values as there are doubles in a vector, from `at` on, as doubles.
+    fn load_widened(self, plane: &Plane, at: usize) -> Self::D;
+    /// Writes the vector of doubles that starts at `at`; no alignment is needed.
+    fn store_doubles(self, plane: &mut Plane<f64>, at: usize, value: Self::D);
+    fn splat_double(self, value: f64) -> Self::D;
+    fn add_doubles(self, a: Self::D, b: Self::D) -> Self::D;
+    fn sub_doubles(self, a: Self::D, b: Self::D) -> Self::D;
+    fn mul_doubles(self, a: Self::D, b: Self::D) -> Self::D;
+    /// a·b + c, rounded once.
+    fn fma_doubles(self, a: Self::D, b: Self::D, c: Self::D) -> Self::D;
+    /// Whether some lane is other than 0.
+    fn any_double(self, a: Self::D) -> bool;
 
     /// +0 in every lane.
     #[inline(always)]

@@ -62,6 +62,25 @@ pub fn for_each_tile<'a, S>(
     tiles.into_par_iter().for_each_init(scratch, |scratch, (tile, rows)| body(scratch, tile, rows));
 }
 
+/// Calls `body` once for each tile of at most `tile_size` (width, height) of an image, in parallel on the current rayon
+/// pool, and gives what it gives: tiles row by row. `scratch` makes the working memory that a worker keeps from tile to tile.
+pub(crate) fn map_tiles<S, T: Send>(
+    (width, height): (usize, usize),
+    tile_size: (usize, usize),
+    scratch: impl Fn() -> S + Sync + Send,
+    body: impl Fn(&mut S, Tile) -> T + Sync + Send,
+) -> Vec<T> {
+    let across = width.div_ceil(tile_size.0);
+    (0..across * height.div_ceil(tile_size.1))
+        .into_par_iter()
+        .map_init(scratch, |scratch, i| {
+            let (x, y) = (i % across * tile_size.0, i / across * tile_size.1);
+            let (width, height) = (tile_size.0.min(width - x), tile_size.1.min(height - y));
+            body(scratch, Tile { x, y, width, height })
+        })
+        .collect()
+}
+
 /// Index of the first value that is not `ok`, searched in parallel on the current rayon pool.
 pub fn first_bad(values: &[f32], ok: impl Fn(f32) -> bool + Sync) -> Option<usize> {
     // Whole chunks without an early exit inside, so that the usual case, all well, runs at the speed of memory.

@@ -1,0 +1,84 @@
+mod bits;
+mod oracle;
+mod properties;
+
+use noisefloor_kernels::InstructionSet;
+use noisefloor_kernels::regression::dense::*;
+
+/// Uniforms in [0, 1) by SplitMix64.
+struct Uniforms(u64);
+
+impl Uniforms {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
+    }
+
+    fn plane(&mut self, n: usize, mut value: impl FnMut(&mut Self) -> f32) -> Vec<f32> {
+        (0..n).map(|_| value(self)).collect()
+    }
+}
+
+/// Planes of one call that own their values.
+#[derive(Clone, Debug)]
+struct Case {
+    fit: Fit,
+    guide: Vec<[Vec<f32>; 2]>,
+    features: Vec<Vec<f32>>,
+    image: [Vec<f32>; 3],
+}
+
+impl Case {
+    /// A third of the variances is zero; differences are of the size of the noise.
+    fn random(width: usize, height: usize, features: usize) -> Self {
+        let mut u = Uniforms((width * 1000 + height * 10 + features) as u64);
+        let n = width * height;
+        let variance = |u: &mut Uniforms| if u.next() < 0.33 { 0.0 } else { 0.1 * u.next() };
+        let weighting = Weighting { width, height, window: 9, patch: 3, k: 1.0, scale: 2.0, epsilon: 1e-7 };
+        Self {
+            fit: Fit { weighting, join: Join::Minimum, solver: Solver::Dropped, positions: true },
+            guide: (0..3).map(|_| [u.plane(n, |u| 0.2 + 0.3 * u.next()), u.plane(n, variance)]).collect(),
+            features: (0..features).map(|_| u.plane(n, Uniforms::next)).collect(),
+            image: [0, 1, 2].map(|_| u.plane(n, Uniforms::next)),
+        }
+    }
+
+    fn guide(&self) -> Vec<Channel<'_>> {
+        self.guide.iter().map(|[value, variance]| Channel { value, variance }).collect()
+    }
+
+    fn planes(&self) -> Planes<'_> {
+        let features = self.features.iter().map(Vec::as_slice).collect();
+        Planes { guide: self.guide(), features, image: self.image.each_ref().map(Vec::as_slice) }
+    }
+
+    /// Every channel of the guide filters the first two colours.
+    fn alone(&self) -> Vec<Alone<'_>> {
+        let alone = |guide| Alone { guide, targets: self.image[..2].iter().map(Vec::as_slice).collect() };
+        self.guide().into_iter().map(alone).collect()
+    }
+
+    fn regress(&self) -> [Vec<f32>; 3] {
+        regress(&self.fit, &self.planes()).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    fn oracle(&self) -> [Vec<f64>; 3] {
+        naive::regress(&self.fit, &self.planes()).unwrap_or_else(|e| panic!("{e}"))
+    }
+}
+
+/// Largest deviation.
+fn far(a: &[f32], b: &[f64]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .map(|(a, b)| (f64::from(*a) - b).abs())
+        .fold(0.0, |worst, d| if d.is_nan() { f64::INFINITY } else { worst.max(d) })
+}
+
+fn farthest(a: &[Vec<f32>; 3], b: &[Vec<f64>; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| far(a, b)).fold(0.0, f64::max)
+}
