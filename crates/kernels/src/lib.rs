@@ -10,6 +10,7 @@
 
 mod engine;
 pub mod flash_filter;
+pub mod guided;
 #[doc(hidden)]
 pub mod inside;
 pub mod nlm;

@@ -2,6 +2,7 @@
 
 mod exp2;
 mod flash_filter;
+mod guided;
 mod mirror;
 mod nlm;
 mod tiles;
