@@ -13,6 +13,7 @@ pub mod flash_filter;
 pub mod guided;
 #[doc(hidden)]
 pub mod inside;
+pub mod joint_nlm;
 pub mod nlm;
 mod real;
 

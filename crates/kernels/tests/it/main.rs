@@ -3,6 +3,7 @@
 mod exp2;
 mod flash_filter;
 mod guided;
+mod joint_nlm;
 mod mirror;
 mod nlm;
 mod tiles;

@@ -1,0 +1,3 @@
+//! Local linear regression.
+
+pub mod models;
