@@ -16,5 +16,6 @@ pub mod inside;
 pub mod joint_nlm;
 pub mod nlm;
 mod real;
+pub mod regression;
 
 pub use engine::{InstructionSet, NotForced, UnknownInstructionSet, Vectorised, mirror};

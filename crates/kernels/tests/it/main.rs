@@ -5,5 +5,6 @@ mod flash_filter;
 mod guided;
 mod joint_nlm;
 mod mirror;
+mod models;
 mod nlm;
 mod tiles;

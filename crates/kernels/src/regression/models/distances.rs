@@ -2,7 +2,10 @@
 
 use std::ops::Range;
 
-use super::{Field, LANES};
+use super::Field;
+
+/// Pixels that are worked on together; rows of a window are short.
+pub(super) const LANES: usize = 8;
 use crate::joint_nlm::squared;
 
 /// P at k = 1 from pixel `center` to the pixels of `columns` and `rows`, into rows of `out` of length `pitch`, a multiple of
