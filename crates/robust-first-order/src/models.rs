@@ -1,6 +1,6 @@
 //! Passes over the image: errors of every bandwidth step by step, growth of the set of centres, the blend.
 
-use noisefloor_kernels::regression::models::{Field, Window};
+use noisefloor_kernels::regression::models::Field;
 use rayon::prelude::*;
 
 use crate::Params;
@@ -8,7 +8,7 @@ use crate::blend::Sums;
 use crate::centres::{self, Center, Tile};
 use crate::params::Assembled;
 use crate::settings::Settings;
-use crate::tile::{ASSEMBLED, Assembly, Pass};
+use crate::tile::{ASSEMBLED, Assembly, Pass, Work};
 
 /// Tiles whose sums are held at a time: 64 MiB at 800×800.
 const TILES: usize = 256;
@@ -56,10 +56,10 @@ fn all(pass: &Pass<'_>, tiles: &[Tile], centers: &mut [Vec<Center>]) -> Sums {
         let work = tiles.par_iter().zip(centers.par_iter_mut()).with_max_len(1);
         let patches: Vec<_> = work
             .map_init(
-                || Window::new(pass.field, pass.settings.reach),
-                |window, (tile, centers)| {
+                || Work::new(pass),
+                |work, (tile, centers)| {
                     let patch;
-                    (*centers, patch) = pass.run(tile, std::mem::take(centers), window);
+                    (*centers, patch) = pass.run(tile, std::mem::take(centers), work);
                     patch
                 },
             )

@@ -1,7 +1,7 @@
 //! All models of one tile in one pass over the image: their errors, their bandwidths, the pixels that they cover.
 
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::regression::models::{Field, Start, Window};
+use noisefloor_kernels::regression::models::{Area, Distances, Field, Start, Window};
 
 use crate::blend::Patch;
 use crate::centres::{Center, Tile};
@@ -14,6 +14,21 @@ pub(crate) const BLENDED: usize = 8;
 pub(crate) const ASSEMBLED: usize = 5;
 /// Least weight in the blend where everything is covered, so that pixels that no model looks like get the mean of all.
 const FAINT: f32 = 1e-30;
+/// Models of a tile from which on distances from all of its pixels cost less than those from the centres; ours, measured.
+const MANY: usize = 64;
+
+/// A worker's memory.
+#[derive(Debug)]
+pub(crate) struct Work {
+    window: Window,
+    distances: Distances,
+}
+
+impl Work {
+    pub fn new(pass: &Pass<'_>) -> Self {
+        Self { window: Window::new(pass.field, pass.settings.reach), distances: Distances::default() }
+    }
+}
 
 /// y_t and Var_t.
 #[derive(Debug)]
@@ -49,25 +64,44 @@ impl Pass<'_> {
     }
 
     /// Runs it on one tile, with the centres that the tile has so far.
-    pub fn run(&self, tile: &Tile, mut centers: Vec<Center>, window: &mut Window) -> (Vec<Center>, Patch) {
+    pub fn run(&self, tile: &Tile, mut centers: Vec<Center>, work: &mut Work) -> (Vec<Center>, Patch) {
         let settings = self.settings;
         let mut patch = Patch::new(tile, settings.reach, self.size, self.planes(), self.last);
         let mut covered = vec![false; tile.width * tile.height];
+        work.distances.clear();
+        if centers.iter().filter(|center| center.radius <= settings.growth).count() > MANY {
+            self.keep_distances(tile, work);
+        }
         for center in &mut centers {
-            self.model(center, tile, window, &mut covered, &mut patch);
+            self.model(center, tile, work, &mut covered, &mut patch);
         }
         if self.grows {
             // Sec. 3.5: every pixel that nothing covers is a centre; its own weight is 1.
+            let mut added = 0;
             for p in 0..covered.len() {
-                if !covered[p] {
-                    let (x, y) = (tile.x + p % tile.width, tile.y + p / tile.width);
-                    let mut center = Center::new(x, y, settings.growth);
-                    self.model(&mut center, tile, window, &mut covered, &mut patch);
-                    centers.push(center);
+                if covered[p] {
+                    continue;
                 }
+                if added == MANY && covered[p..].iter().filter(|covered| !**covered).count() > MANY {
+                    self.keep_distances(tile, work);
+                }
+                let (x, y) = (tile.x + p % tile.width, tile.y + p / tile.width);
+                let mut center = Center::new(x, y, settings.growth);
+                self.model(&mut center, tile, work, &mut covered, &mut patch);
+                centers.push(center);
+                added += 1;
             }
         }
         (centers, patch)
+    }
+
+    /// Computes distances from all pixels of a tile, unless they are there.
+    fn keep_distances(&self, tile: &Tile, work: &mut Work) {
+        let Tile { x, y, width, height, .. } = *tile;
+        if !work.distances.holds((x, y), self.settings.growth) {
+            let area = Area { x, y, width, height };
+            work.distances.fill(self.field, area, self.settings.growth, InstructionSet::in_use());
+        }
     }
 
     /// One model: the steps that it lacks, its bandwidth, what it covers and what it says.
@@ -75,12 +109,12 @@ impl Pass<'_> {
         &self,
         center: &mut Center,
         tile: &Tile,
-        window: &mut Window,
+        Work { window, distances }: &mut Work,
         covered: &mut [bool],
         patch: &mut Patch,
     ) {
         let (settings, field, level) = (self.settings, self.field, InstructionSet::in_use());
-        window.open(field, (center.x, center.y), center.radius, level);
+        window.open(field, (center.x, center.y), center.radius, distances, level);
         for k in 0..settings.bandwidths.len() {
             window.weigh(field, k, level);
             let over = if settings.divided { window.weight_sum(k) } else { 1.0 };
@@ -104,7 +138,7 @@ impl Pass<'_> {
         }
         if self.grows {
             let width = self.size.0;
-            for (p, w) in window.pixels().iter().zip(window.weights(center.k)) {
+            for (p, w) in window.pixels(center.k).iter().zip(window.weights(center.k)) {
                 let (x, y) = (*p as usize % width, *p as usize / width);
                 let (x, y) = (x.wrapping_sub(tile.x), y.wrapping_sub(tile.y));
                 if *w >= settings.coverage && x < tile.width && y < tile.height {
@@ -130,7 +164,7 @@ impl Pass<'_> {
     /// Adds y_t and Var_t of bandwidth number `k` to the image that the next step starts from.
     fn assemble(&self, window: &Window, k: usize, first: usize, patch: &mut Patch) {
         let ([r, g, b], variance, m) = (window.value(k), window.variance(k), window.center());
-        for (i, (p, w)) in window.pixels().iter().zip(window.weights(k)).enumerate() {
+        for (i, (p, w)) in window.pixels(k).iter().zip(window.weights(k)).enumerate() {
             if *w >= self.settings.coverage {
                 let place = self.place(patch, *p);
                 let values = [m[0] + r[i], m[1] + g[i], m[2] + b[i], variance[i]];
@@ -143,7 +177,7 @@ impl Pass<'_> {
     fn blend(&self, window: &Window, center: &Center, patch: &mut Patch) {
         let (u, y, error, m) = (window.fitted(), window.refitted(), window.error(center.k), window.center());
         let bandwidth = self.settings.bandwidths[center.k];
-        for (i, (p, w)) in window.pixels().iter().zip(window.weights(center.k)).enumerate() {
+        for (i, (p, w)) in window.pixels(center.k).iter().zip(window.weights(center.k)).enumerate() {
             if *w >= self.settings.coverage {
                 let (place, w) = (self.place(patch, *p), w.max(FAINT));
                 let u = [0, 1, 2].map(|c| m[c] + u[c][i]);

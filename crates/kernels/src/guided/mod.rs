@@ -16,6 +16,7 @@
 
 mod band;
 pub mod naive;
+#[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod solve;
 mod sums;
 

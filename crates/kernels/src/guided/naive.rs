@@ -2,6 +2,9 @@
 
 use super::{GuidedError, GuidedParams};
 
+/// a and b of one window.
+type Line = (Vec<f64>, f64);
+
 /// [`super::filter`] with loops over windows, and a solver that pivots.
 ///
 /// # Errors
@@ -16,11 +19,11 @@ pub fn filter_f64(
     let mut out = vec![vec![0.0; pixels]; targets.len()];
     for (target, out) in targets.iter().zip(&mut out) {
         // a and b of the window around every pixel.
-        let fits: Vec<(Vec<f64>, f64)> = (0..pixels).map(|k| fit(params, guide, target, k)).collect();
+        let fits: Vec<Line> = (0..pixels).map(|k| fit(params, guide, target, k)).collect();
         for (p, out) in out.iter_mut().enumerate() {
             // Windows that contain p are those around the pixels of its own.
             let windows = window(params, p);
-            let of = |f: &dyn Fn(&(Vec<f64>, f64)) -> f64| {
+            let of = |f: &dyn Fn(&Line) -> f64| {
                 windows.iter().map(|&k| f(&fits[k])).sum::<f64>() / windows.len() as f64
             };
             *out = of(&|fit| fit.1);
@@ -39,7 +42,7 @@ fn window(params: &GuidedParams, p: usize) -> Vec<usize> {
     rows.flat_map(|j| columns.clone().map(move |i| j * params.width + i)).collect()
 }
 
-fn fit(params: &GuidedParams, guide: &[&[f32]], target: &[f32], k: usize) -> (Vec<f64>, f64) {
+fn fit(params: &GuidedParams, guide: &[&[f32]], target: &[f32], k: usize) -> Line {
     let window = window(params, k);
     let mean = |plane: &[f32]| window.iter().map(|&p| f64::from(plane[p])).sum::<f64>() / window.len() as f64;
     let covariance = |a: &[f32], b: &[f32]| {
@@ -79,8 +82,9 @@ fn eliminate(rows: &mut [Vec<f64>]) -> Vec<f64> {
         used.push((pivot, column));
         for row in (0..n).filter(|row| *row != pivot) {
             let factor = rows[row][column] / rows[pivot][column];
-            for k in column..=n {
-                rows[row][k] -= factor * rows[pivot][k];
+            let from = rows[pivot].clone();
+            for (value, from) in rows[row].iter_mut().zip(&from).skip(column) {
+                *value -= factor * from;
             }
         }
     }

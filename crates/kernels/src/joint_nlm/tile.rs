@@ -5,7 +5,11 @@ use super::{JointChannel, JointParams};
 use crate::engine::{Tile, TileRows, Vectorised, Window, mirror};
 use crate::nlm::maps::exponential::exponential;
 
-/// Sizes of working copies.
+/// Pixels that are worked on together.
+const LANES: usize = 8;
+type Lanes = [f32; LANES];
+
+/// Sizes of working copies. Rows are read in whole lanes, beyond what counts.
 pub(super) struct Layout {
     /// Pixels around a tile that are copied.
     around: usize,
@@ -26,7 +30,7 @@ impl Layout {
             around,
             columns: tile.0 + 2 * around,
             rows: tile.1 + 2 * around,
-            map_columns: tile.0 + 2 * f,
+            map_columns: (tile.0 + 2 * f).next_multiple_of(LANES) + LANES,
             map_rows: tile.1 + 2 * f,
             tile,
             channels,
@@ -47,12 +51,14 @@ pub(super) struct Work {
     /// Exponents from distance and features.
     joint: Vec<f32>,
     line: Vec<f32>,
+    /// 1 for pixels whose neighbour lies in the image, 0 for others.
+    inside: Vec<f32>,
 }
 
 impl Work {
     pub fn new(layout: &Layout) -> Self {
         let planes = |size: usize| vec![vec![0.0; size]; layout.channels];
-        let (copy, tile) = (layout.columns * layout.rows, layout.tile.0 * layout.tile.1);
+        let (copy, tile) = (layout.columns * layout.rows + 2 * LANES, layout.tile.0 * layout.tile.1);
         Self {
             values: planes(copy),
             variances: planes(copy),
@@ -61,6 +67,7 @@ impl Work {
             map: vec![0.0; layout.map_columns * layout.map_rows],
             joint: vec![0.0; tile],
             line: vec![0.0; layout.map_columns],
+            inside: vec![0.0; layout.tile.0],
         }
     }
 }
@@ -90,7 +97,7 @@ impl Vectorised for Filter<'_, '_> {
                 self.offset((block.dx, block.dy), block.rows, columns);
             }
         }
-        let Self { layout, work, tile, out, .. } = self;
+        let Self { layout, work, out, .. } = self;
         for (c, out) in out.into_iter().enumerate() {
             for (y, row) in out.into_iter().enumerate() {
                 for (x, value) in row.iter_mut().enumerate() {
@@ -101,7 +108,6 @@ impl Vectorised for Filter<'_, '_> {
                 }
             }
         }
-        let _ = tile;
     }
 }
 
@@ -134,95 +140,135 @@ impl Filter<'_, '_> {
         columns: std::ops::Range<usize>,
     ) {
         let Self { params, channels, layout, work, tile, .. } = self;
-        let (f, n) = (params.patch_radius, tile.width);
+        let f = params.patch_radius;
         let start = |x: usize, y: usize| (y + layout.around) * layout.columns + x + layout.around;
         let there = |at: usize| at.wrapping_add_signed(dy * layout.columns as isize + dx);
+        // Tiles are whole lanes wide; what lies beyond the image is not read.
+        let n = tile.width.next_multiple_of(LANES);
+        for (x, inside) in work.inside.iter_mut().enumerate() {
+            *inside = f32::from(columns.contains(&x));
+        }
 
         // Distance and features: the same for all channels.
         let spatial = (dx * dx + dy * dy) as f32 / (2.0 * params.spatial_sigma * params.spatial_sigma);
         for y in rows.clone() {
-            let joint = &mut work.joint[y * layout.tile.0..][..n];
-            joint.fill(spatial);
-            for (values, channel) in work.values.iter().zip(channels.iter()) {
-                let factor = 0.5 / (channel.sigma * channel.sigma);
-                let here = &values[start(0, y)..][..n];
-                let there = &values[there(start(0, y))..][..n];
-                for ((joint, a), b) in joint.iter_mut().zip(here).zip(there) {
-                    let d = a - b;
-                    *joint += d * d * factor;
-                }
-            }
-        }
-        let over = params.k * params.k;
-        let taps = (2 * f + 1) as f32;
-        let scale = 1.0 / (taps * taps * 2.0 * params.range_sigma * params.range_sigma);
-        let wide = n + 2 * f;
-        for c in 0..channels.len() {
-            let (values, variances) = (&work.values[c], &work.variances[c]);
-            // Eq. 5 at the tile and the patches around its pixels.
-            for j in rows.start..rows.end + 2 * f {
-                let here = start(0, j) - f * layout.columns - f;
-                let (at, other) = (here..here + wide, there(here)..there(here) + wide);
-                let map = &mut work.map[j * layout.map_columns..][..wide];
-                let a = values[at.clone()].iter().zip(&variances[at]);
-                let b = values[other.clone()].iter().zip(&variances[other]);
-                for ((map, (a, va)), (b, vb)) in map.iter_mut().zip(a).zip(b) {
-                    *map = squared((*a, *va), (*b, *vb), over);
-                }
-            }
-            for y in rows.clone() {
-                // Eq. 4: down, then across.
-                let line = &mut work.line[..wide];
-                line.copy_from_slice(&work.map[y * layout.map_columns..][..wide]);
-                for j in 1..=2 * f {
-                    let row = &work.map[(y + j) * layout.map_columns..][..wide];
-                    for (sum, d) in line.iter_mut().zip(row) {
-                        *sum += d;
+            for x in (0..n).step_by(LANES) {
+                let mut joint = [spatial; LANES];
+                for (values, channel) in work.values.iter().zip(channels.iter()) {
+                    let factor = 0.5 / (channel.sigma * channel.sigma);
+                    let (a, b) = (lanes(values, start(x, y)), lanes(values, there(start(x, y))));
+                    for l in 0..LANES {
+                        let d = a[l] - b[l];
+                        joint[l] += d * d * factor;
                     }
                 }
-                let (from, to) = (columns.start, columns.end);
-                let span = from..to;
-                let width = layout.tile.0;
-                let here = &values[start(0, y)..][span.clone()];
-                let there = &values[there(start(0, y))..][span.clone()];
-                let joint = &work.joint[y * width..][span.clone()];
-                let weights = &mut work.weights[c][y * width..][span.clone()];
-                let sums = &mut work.sums[c][y * width..][span];
-                let line = &work.line[from..];
-                let rest = weights.iter_mut().zip(sums).zip(here).zip(there).zip(joint);
-                match f {
-                    3 => add(rest, across::<7>(line, to - from), scale),
-                    2 => add(rest, across::<5>(line, to - from), scale),
-                    1 => add(rest, across::<3>(line, to - from), scale),
-                    _ => add(rest, across::<1>(line, to - from), scale),
-                }
+                work.joint[y * layout.tile.0 + x..][..LANES].copy_from_slice(&joint);
+            }
+        }
+        let Self { params, layout, work, tile, .. } = self;
+        let sweep = Sweep { params, layout, columns: tile.width, away: dy * layout.columns as isize + dx };
+        for c in 0..layout.channels {
+            match f {
+                3 => sweep.channel::<7>(work, c, rows.clone()),
+                2 => sweep.channel::<5>(work, c, rows.clone()),
+                1 => sweep.channel::<3>(work, c, rows.clone()),
+                _ => sweep.channel::<1>(work, c, rows.clone()),
             }
         }
     }
 }
 
-/// Sums of `N` values in a row.
-#[inline(always)]
-fn across<const N: usize>(line: &[f32], count: usize) -> impl Iterator<Item = f32> + '_ {
-    line[..count + N - 1].windows(N).map(|taps| {
-        let mut sum = taps[0];
-        for tap in &taps[1..] {
-            sum += tap;
-        }
-        sum
-    })
+/// One offset.
+struct Sweep<'a> {
+    params: &'a JointParams,
+    layout: &'a Layout,
+    columns: usize,
+    /// From a pixel of a working copy to its neighbour.
+    away: isize,
 }
 
-type Rest<'a> = ((((&'a mut f32, &'a mut f32), &'a f32), &'a f32), &'a f32);
-
-/// Eq. 3, and its share of both sums.
-#[inline(always)]
-fn add<'a>(rest: impl Iterator<Item = Rest<'a>>, sums: impl Iterator<Item = f32>, scale: f32) {
-    for (((((weight, sum), here), there), joint), patch) in rest.zip(sums) {
-        let distance = patch * scale;
-        let distance = if distance > 0.0 { distance } else { 0.0 };
-        let w = exponential(distance + joint);
-        *weight += w;
-        *sum += w * (there - here);
+impl Sweep<'_> {
+    /// Adds the neighbours in one channel, with patches of `TAPS` rows.
+    #[inline(always)]
+    fn channel<const TAPS: usize>(&self, work: &mut Work, c: usize, rows: std::ops::Range<usize>) {
+        let Self { params, layout, columns, away } = *self;
+        let over = params.k * params.k;
+        let scale = 1.0 / ((TAPS * TAPS) as f32 * 2.0 * params.range_sigma * params.range_sigma);
+        // Tiles are whole lanes wide; what lies beyond the image is not read.
+        let n = columns.next_multiple_of(LANES);
+        let wide = (n + TAPS - 1).next_multiple_of(LANES);
+        let start = |y: usize| (y + layout.around) * layout.columns + layout.around;
+        let (values, variances) = (&work.values[c], &work.variances[c]);
+        // Eq. 5 at the tile and the patches around its pixels.
+        for j in rows.start..rows.end + TAPS - 1 {
+            let p = start(j) - (TAPS / 2) * layout.columns - TAPS / 2;
+            let q = p.wrapping_add_signed(away);
+            let (a, va) = (row(values, p, wide), row(variances, p, wide));
+            let (b, vb) = (row(values, q, wide), row(variances, q, wide));
+            let map = work.map[j * layout.map_columns..][..wide].as_chunks_mut().0;
+            for ((((map, a), va), b), vb) in map.iter_mut().zip(a).zip(va).zip(b).zip(vb) {
+                let mut d = [0.0; LANES];
+                for l in 0..LANES {
+                    d[l] = squared((a[l], va[l]), (b[l], vb[l]), over);
+                }
+                *map = d;
+            }
+        }
+        for y in rows {
+            // Eq. 4: down, then across.
+            let line = &mut work.line[..wide];
+            line.copy_from_slice(&work.map[y * layout.map_columns..][..wide]);
+            for pair in 0..TAPS / 2 {
+                let [a, b] = [1, 2].map(|tap| &work.map[(y + 2 * pair + tap) * layout.map_columns..][..wide]);
+                for ((sum, a), b) in line.iter_mut().zip(a).zip(b) {
+                    *sum = *sum + a + b;
+                }
+            }
+            let p = row(values, start(y), n);
+            let q = row(values, start(y).wrapping_add_signed(away), n);
+            let at = y * layout.tile.0;
+            let (joint, inside) = (row(&work.joint, at, n), row(&work.inside, 0, n));
+            let weights = work.weights[c][at..][..n].as_chunks_mut::<LANES>().0;
+            let sums = work.sums[c][at..][..n].as_chunks_mut::<LANES>().0;
+            let line = &work.line[..wide + LANES];
+            let both = weights.iter_mut().zip(sums);
+            for (g, ((((w, s), (p, q)), joint), inside)) in
+                both.zip(p.iter().zip(q)).zip(joint).zip(inside).enumerate()
+            {
+                let taps = &line[g * LANES..][..LANES + TAPS - 1];
+                let mut sum = [0.0; LANES];
+                for tap in 0..TAPS {
+                    for l in 0..LANES {
+                        sum[l] += taps[tap + l];
+                    }
+                }
+                // Eq. 3, and its share of both sums. Copies, which share no memory, become vectors.
+                let (mut weights, mut sums, mut added) = (*w, *s, [0.0; LANES]);
+                for l in 0..LANES {
+                    let distance = sum[l] * scale;
+                    let distance = if distance > 0.0 { distance } else { 0.0 };
+                    added[l] = exponential(distance + joint[l]) * inside[l];
+                }
+                for l in 0..LANES {
+                    weights[l] += added[l];
+                    sums[l] += added[l] * (q[l] - p[l]);
+                }
+                (*w, *s) = (weights, sums);
+            }
+        }
     }
+}
+
+/// `n` values from `at` on, in lanes.
+#[inline(always)]
+fn row(values: &[f32], at: usize, n: usize) -> &[Lanes] {
+    values[at..][..n].as_chunks().0
+}
+
+/// Values from `at` on. Copies, which share no memory with what is written, become vectors.
+#[inline(always)]
+fn lanes(values: &[f32], at: usize) -> Lanes {
+    let mut out = [0.0; LANES];
+    out.copy_from_slice(&values[at..][..LANES]);
+    out
 }

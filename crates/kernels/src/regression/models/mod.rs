@@ -18,11 +18,14 @@
 
 mod distances;
 mod field;
+#[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod moments;
 pub mod naive;
+#[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod solve;
 mod window;
 
+pub use distances::{Area, Distances};
 pub use field::{Field, FieldError, Planes, Rules};
 pub use window::{Start, Window};
 

@@ -145,17 +145,13 @@ fn inverse(mut m: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
         for i in (0..n).filter(|i| *i != k) {
             let factor = m[i][k];
             m[i][k] = 0.0;
-            for j in 0..n {
-                let value = m[k][j];
-                m[i][j] -= factor * value;
-            }
+            let from = m[k].clone();
+            m[i].iter_mut().zip(&from).for_each(|(value, from)| *value -= factor * from);
         }
     }
     for k in left_out {
-        for i in 0..n {
-            m[i][k] = 0.0;
-            m[k][i] = 0.0;
-        }
+        m.iter_mut().for_each(|row| row[k] = 0.0);
+        m[k].fill(0.0);
     }
     m
 }

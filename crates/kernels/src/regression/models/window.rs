@@ -1,10 +1,10 @@
 //! One model: its window, weights, steps of its error estimate, and its fit.
 
-use super::distances::{self, from_center};
+use super::distances::{self, Distances, from_center};
 use super::field::{GUIDE, IMPORTANCE, TARGET, VARIANCE};
 use super::moments::{Design, predict, quadratic, sides, square, total};
 use super::solve::Square;
-use super::{COLUMNS, Field, LANES, Lanes, MAX_FEATURES};
+use super::{COLUMNS, Field, LANES, Lanes, MAX_BANDWIDTHS, MAX_FEATURES};
 use crate::InstructionSet;
 use crate::engine::Vectorised;
 use crate::nlm::maps::exponential::exponential;
@@ -34,10 +34,11 @@ type Column = Vec<Lanes>;
 /// The window that is worked on, and a worker's memory.
 #[derive(Clone, Debug)]
 pub struct Window {
-    /// Pixels that take part, as indices into the image.
+    /// Pixels that take part, as indices into the image: first those that the smallest bandwidth gives a weight, then those that
+    /// only larger ones do.
     pixels: Vec<u32>,
-    /// Lanes in use of every column.
-    groups: usize,
+    /// How many each bandwidth gives a weight.
+    counts: [usize; MAX_BANDWIDTHS],
     /// Rows of X, column by column, `stride` after each other.
     x: Column,
     stride: usize,
@@ -59,6 +60,8 @@ pub struct Window {
     squares: Column,
     /// u and M fitted with the chosen bandwidth, less M at the centre.
     fitted: [Column; 6],
+    /// That bandwidth.
+    chosen: usize,
 }
 
 /// One bandwidth.
@@ -88,7 +91,7 @@ impl Window {
         };
         Self {
             pixels: Vec::with_capacity(side * side),
-            groups: 0,
+            counts: [0; MAX_BANDWIDTHS],
             x: vec![[0.0; LANES]; stride * COLUMNS],
             stride,
             guide: [(); 3].map(|()| column()),
@@ -102,12 +105,21 @@ impl Window {
             start: [(); 4].map(|()| column()),
             squares: column(),
             fitted: [(); 6].map(|()| column()),
+            chosen: 0,
         }
     }
 
-    /// Goes to the window of `radius` around `center`, at most the radius that there is room for.
-    pub fn open(&mut self, field: &Field, center: (usize, usize), radius: usize, level: InstructionSet) {
-        level.run(Open { window: self, field, center, radius });
+    /// Goes to the window of `radius` around `center`, at most the radius that there is room for. Distances that `known` holds
+    /// are taken from it, with the same result.
+    pub fn open(
+        &mut self,
+        field: &Field,
+        center: (usize, usize),
+        radius: usize,
+        known: &Distances,
+        level: InstructionSet,
+    ) {
+        level.run(Open { window: self, field, center, radius, known });
     }
 
     /// Weights of bandwidth number `k`, and the normal matrix with them.
@@ -126,52 +138,52 @@ impl Window {
         level.run(Fit { window: self, field, k, prefiltered });
     }
 
-    /// Pixels that take part, as indices into the image, row by row.
+    /// Pixels that take part in bandwidth number `k`, as indices into the image. What is said of pixels below is in this order.
     #[must_use]
-    pub fn pixels(&self) -> &[u32] {
-        &self.pixels
+    pub fn pixels(&self, k: usize) -> &[u32] {
+        &self.pixels[..self.counts[k]]
     }
 
     /// Weights of bandwidth number `k`.
     #[must_use]
     pub fn weights(&self, k: usize) -> &[f32] {
-        self.part(&self.models[k].weights)
+        self.part(k, &self.models[k].weights)
     }
 
     /// Σ w of bandwidth number `k`.
     #[must_use]
     pub fn weight_sum(&self, k: usize) -> f64 {
-        self.models[k].weights[..self.groups].iter().map(total).sum()
+        self.models[k].weights[..self.groups(k)].iter().map(total).sum()
     }
 
     /// y_t of the last step with bandwidth number `k`, less [`Window::center`].
     #[must_use]
     pub fn value(&self, k: usize) -> [&[f32]; 3] {
-        [0, 1, 2].map(|c| self.part(&self.models[k].value[c]))
+        [0, 1, 2].map(|c| self.part(k, &self.models[k].value[c]))
     }
 
     /// Var_t of that step.
     #[must_use]
     pub fn variance(&self, k: usize) -> &[f32] {
-        self.part(&self.models[k].variance)
+        self.part(k, &self.models[k].variance)
     }
 
     /// bias_t² + Var_t of that step, mean of the channels.
     #[must_use]
     pub fn error(&self, k: usize) -> &[f32] {
-        self.part(&self.models[k].error)
+        self.part(k, &self.models[k].error)
     }
 
     /// u, or M, as last fitted, less [`Window::center`].
     #[must_use]
     pub fn fitted(&self) -> [&[f32]; 3] {
-        [0, 1, 2].map(|c| self.part(&self.fitted[c]))
+        [0, 1, 2].map(|c| self.part(self.chosen, &self.fitted[c]))
     }
 
     /// M as last fitted, less [`Window::center`].
     #[must_use]
     pub fn refitted(&self) -> [&[f32]; 3] {
-        [3, 4, 5].map(|c| self.part(&self.fitted[c]))
+        [3, 4, 5].map(|c| self.part(self.chosen, &self.fitted[c]))
     }
 
     /// M at the centre.
@@ -180,8 +192,14 @@ impl Window {
         self.center
     }
 
-    fn part<'a>(&self, column: &'a [Lanes]) -> &'a [f32] {
-        &column.as_flattened()[..self.pixels.len()]
+    fn part<'a>(&self, k: usize, column: &'a [Lanes]) -> &'a [f32] {
+        &column.as_flattened()[..self.counts[k]]
+    }
+
+    /// Lanes in use with bandwidth number `k`; what they hold beyond its pixels weighs nothing with it.
+    #[inline(always)]
+    fn groups(&self, k: usize) -> usize {
+        self.counts[k].div_ceil(LANES)
     }
 }
 
@@ -190,6 +208,7 @@ struct Open<'a> {
     field: &'a Field,
     center: (usize, usize),
     radius: usize,
+    known: &'a Distances,
 }
 
 impl Vectorised for Open<'_> {
@@ -197,11 +216,16 @@ impl Vectorised for Open<'_> {
 
     #[inline(always)]
     fn run(self) {
-        let Self { window, field, center: (x, y), radius } = self;
+        let Self { window, field, center: (x, y), radius, known } = self;
         let columns = x.saturating_sub(radius)..(x + radius + 1).min(field.width);
         let rows = y.saturating_sub(radius)..(y + radius + 1).min(field.height);
         let pitch = columns.len().next_multiple_of(distances::LANES);
-        from_center(field, (x, y), &columns, &rows, &mut window.map[..pitch * rows.len()], pitch);
+        let map = &mut window.map[..pitch * rows.len()];
+        if known.holds((x, y), radius) {
+            known.copy((x, y), &columns, &rows, map, pitch);
+        } else {
+            from_center(field, (x, y), &columns, &rows, map, pitch);
+        }
 
         // Scales from all of the window.
         let own = &field.records[y * field.width + x];
@@ -226,21 +250,40 @@ impl Vectorised for Open<'_> {
             scales[2 + i] = scale(high[i] - low[i], field.floors[2 + i]);
         }
 
-        // What has no weight at the largest bandwidth has none at any.
-        let widest = factor(field, field.rules.bandwidths.len() - 1);
+        // The first bandwidth that gives each pixel a weight, if any does, and how many there are of each.
+        let bandwidths = field.rules.bandwidths.len();
+        let mut farthest = [f32::INFINITY; MAX_BANDWIDTHS];
+        for (k, farthest) in farthest.iter_mut().enumerate().take(bandwidths) {
+            *farthest = -field.rules.least_weight.ln() / factor(field, k);
+        }
+        let farthest = &farthest[..bandwidths];
+        let mut next = [0; MAX_BANDWIDTHS + 1];
+        for distances in window.map[..pitch * rows.len()].chunks(pitch) {
+            for distance in &distances[..columns.len()] {
+                next[first_of(farthest, *distance) + 1] += 1;
+            }
+        }
+        for k in 0..bandwidths {
+            next[k + 1] += next[k];
+            window.counts[k] = next[k + 1];
+        }
+        let n = window.counts[bandwidths - 1];
+
         window.center = [own[GUIDE], own[GUIDE + 1], own[GUIDE + 2]];
         window.pixels.clear();
+        window.pixels.resize(n, 0);
         let stride = window.stride;
-        let mut n = 0;
         for (j, distances) in rows.clone().zip(window.map.chunks(pitch)) {
             for (i, distance) in columns.clone().zip(distances) {
-                if exponential(distance * widest) < field.rules.least_weight {
+                let k = first_of(farthest, *distance);
+                if k == bandwidths {
                     continue;
                 }
-                let p = j * field.width + i;
+                let (p, place) = (j * field.width + i, next[k]);
+                next[k] += 1;
                 let record = &field.records[p];
-                let (g, l) = (n / LANES, n % LANES);
-                window.pixels.push(p as u32);
+                let (g, l) = (place / LANES, place % LANES);
+                window.pixels[place] = p as u32;
                 window.distances[g][l] = *distance;
                 window.x[g][l] = 1.0;
                 window.x[stride + g][l] = (i as f32 - x as f32) * scales[0];
@@ -254,12 +297,10 @@ impl Vectorised for Open<'_> {
                 }
                 window.variance[g][l] = record[VARIANCE];
                 window.importance[g][l] = record[IMPORTANCE];
-                n += 1;
             }
         }
-        window.groups = n.div_ceil(LANES);
         // The rest of the last lanes weighs nothing.
-        for i in n..window.groups * LANES {
+        for i in n..n.next_multiple_of(LANES) {
             let (g, l) = (i / LANES, i % LANES);
             window.distances[g][l] = f32::INFINITY;
             for column in 0..COLUMNS {
@@ -273,6 +314,16 @@ impl Vectorised for Open<'_> {
             window.importance[g][l] = 0.0;
         }
     }
+}
+
+/// Number of the first bandwidth at which a distance is not too far, or how many there are.
+#[inline(always)]
+fn first_of(farthest: &[f32], distance: f32) -> usize {
+    let mut k = 0;
+    for limit in farthest {
+        k += usize::from(distance > *limit);
+    }
+    k
 }
 
 /// 1/(2σ_r²k²) of bandwidth number `k`.
@@ -295,16 +346,21 @@ impl Vectorised for Weigh<'_> {
     fn run(self) {
         let Self { window, field, k } = self;
         let (factor, least) = (factor(field, k), field.rules.least_weight);
+        let groups = window.groups(k);
         let model = &mut window.models[k];
-        for (weights, distances) in model.weights[..window.groups].iter_mut().zip(&window.distances) {
+        for (weights, distances) in model.weights[..groups].iter_mut().zip(&window.distances) {
             for (weight, distance) in weights.iter_mut().zip(distances) {
                 let w = exponential(distance * factor);
                 *weight = if w < least { 0.0 } else { w };
             }
         }
-        let weights = &model.weights[..window.groups];
+        // Lanes that this bandwidth does not reach.
+        for i in window.counts[k]..groups * LANES {
+            model.weights[i / LANES][i % LANES] = 0.0;
+        }
+        let weights = &model.weights[..groups];
         let ridge = field.rules.ridge;
-        let design = Design { x: &window.x, stride: window.stride, groups: window.groups };
+        let design = Design { x: &window.x, stride: window.stride, groups };
         model.inverse = square(weights, design, ridge < FINE).inverse(ridge);
     }
 }
@@ -322,18 +378,18 @@ impl Vectorised for Step<'_, '_> {
     #[inline(always)]
     fn run(self) -> f64 {
         let Self { window, field, k, start } = self;
-        let n = window.groups;
+        let n = window.groups(k);
         match start {
             Start::First => {}
             Start::Images { value, variance } => {
-                for (i, p) in window.pixels.iter().enumerate() {
+                for (i, p) in window.pixels[..window.counts[k]].iter().enumerate() {
                     let (g, l, p) = (i / LANES, i % LANES, *p as usize);
                     for c in 0..3 {
                         window.start[c][g][l] = value[c][p] - window.center[c];
                     }
                     window.start[3][g][l] = variance[p];
                 }
-                for i in window.pixels.len()..n * LANES {
+                for i in window.counts[k]..n * LANES {
                     window.start.iter_mut().for_each(|column| column[i / LANES][i % LANES] = 0.0);
                 }
             }
@@ -401,7 +457,8 @@ impl Vectorised for Fit<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { window, field, k, prefiltered } = self;
-        let n = window.groups;
+        let n = window.groups(k);
+        window.chosen = k;
         let model = &window.models[k];
         let fine = field.rules.ridge < FINE;
         let design = Design { x: &window.x, stride: window.stride, groups: n };

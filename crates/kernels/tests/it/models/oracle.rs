@@ -1,7 +1,7 @@
 //! The fast form against a hat matrix.
 
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::regression::models::{Start, Window, naive::Twin};
+use noisefloor_kernels::regression::models::{Area, Distances, Start, Window, naive::Twin};
 
 use super::Case;
 
@@ -28,14 +28,14 @@ fn weights_fits_biases_and_variances_are_those_of_the_hat_matrix() {
             let field = case.field();
             let mut window = Window::new(&field, radius);
             let level = InstructionSet::in_use();
-            window.open(&field, center, radius, level);
+            window.open(&field, center, radius, &Distances::default(), level);
             let m = window.center();
             for (k, bandwidth) in case.rules.bandwidths.iter().enumerate() {
                 let twin =
                     Twin::new(case.size, &case.planes(), &case.rules, center, radius, f64::from(*bandwidth));
                 let of = |plane: &[f32]| twin.pixels.iter().map(|p| f64::from(plane[*p])).collect::<Vec<_>>();
                 let kept: Vec<usize> = window
-                    .pixels()
+                    .pixels(k)
                     .iter()
                     .map(|p| twin.pixels.iter().position(|q| *q == *p as usize).unwrap())
                     .collect();
@@ -87,11 +87,44 @@ fn a_step_from_images_is_a_step_from_the_same_values_in_the_window() {
     let level = InstructionSet::in_use();
     let run = |start: Start<'_>| {
         let mut window = Window::new(&field, 8);
-        window.open(&field, (12, 9), 8, level);
+        window.open(&field, (12, 9), 8, &Distances::default(), level);
         window.weigh(&field, 1, level);
         let sum = window.step(&field, 1, start, level);
         (sum, window.value(1).map(<[f32]>::to_vec), window.variance(1).to_vec(), window.error(1).to_vec())
     };
     let value = case.guide.each_ref().map(Vec::as_slice);
     assert_eq!(run(Start::First), run(Start::Images { value, variance: &case.variance }));
+}
+
+#[test]
+fn distances_that_are_kept_are_those_from_the_centre() {
+    for (width, height) in [(50, 40), (9, 50), (31, 3), (1, 1)] {
+        for patch_radius in 0..=3 {
+            let mut case = Case::new(width, height, 23);
+            case.rules.patch_radius = patch_radius;
+            case.rules.least_weight = 0.0;
+            let field = case.field();
+            let level = InstructionSet::in_use();
+            let (mut kept, mut window) = (Distances::default(), Window::new(&field, 6));
+            let area =
+                Area { x: width / 3, y: height / 3, width: width.div_ceil(2), height: height.div_ceil(2) };
+            kept.fill(&field, area, 6, level);
+            for y in area.y..area.y + area.height {
+                for x in area.x..area.x + area.width {
+                    for radius in [3, 6] {
+                        assert!(kept.holds((x, y), radius));
+                        let mut run = |known: &Distances| {
+                            window.open(&field, (x, y), radius, known, level);
+                            window.weigh(&field, 0, level);
+                            (window.pixels(0).to_vec(), window.weights(0).to_vec())
+                        };
+                        assert!(run(&kept) == run(&Distances::default()), "({x}, {y})");
+                    }
+                }
+            }
+            assert!(!kept.holds((area.x, area.y), 7) && !kept.holds((area.x + area.width, area.y), 3));
+            kept.clear();
+            assert!(!kept.holds((area.x, area.y), 3));
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! What must hold of any model.
 
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::regression::models::{Field, FieldError, Rules, Start, Window, naive::Twin};
+use noisefloor_kernels::regression::models::{
+    Distances, Field, FieldError, Rules, Start, Window, naive::Twin,
+};
 
 use super::{Case, levels};
 
@@ -58,7 +60,7 @@ fn a_target_that_is_affine_in_the_columns_comes_back_whatever_the_weights() {
         let field = case.field();
         let mut window = Window::new(&field, radius);
         let level = InstructionSet::in_use();
-        window.open(&field, center, radius, level);
+        window.open(&field, center, radius, &Distances::default(), level);
         window.weigh(&field, K, level);
         window.fit(&field, K, false, level);
         for c in 0..3 {
@@ -75,7 +77,7 @@ fn a_target_that_is_affine_in_the_columns_comes_back_whatever_the_weights() {
             for (got, exact) in twin.times(&exact).iter().zip(&exact) {
                 assert!((got - exact).abs() < 1e-9, "{got}, {exact}");
             }
-            for (p, got) in window.pixels().iter().zip(window.fitted()[c]) {
+            for (p, got) in window.pixels(K).iter().zip(window.fitted()[c]) {
                 let (got, wanted) = (got + window.center()[c], case.target[c][*p as usize]);
                 // Values of up to 10 in f32.
                 assert!((got - wanted).abs() < 2e-5, "{got}, {wanted}");
@@ -91,7 +93,7 @@ fn without_ridge_a_second_step_in_the_window_has_no_bias() {
     let field = case.field();
     let level = InstructionSet::in_use();
     let mut window = Window::new(&field, 8);
-    window.open(&field, (14, 10), 8, level);
+    window.open(&field, (14, 10), 8, &Distances::default(), level);
     window.weigh(&field, K, level);
     window.step(&field, K, Start::First, level);
     let first: Vec<f32> = window.value(K)[0].to_vec();
@@ -115,7 +117,7 @@ fn a_constant_comes_back_exactly_and_costs_no_variance_where_there_is_none() {
     let field = case.field();
     let level = InstructionSet::in_use();
     let mut window = Window::new(&field, 10);
-    window.open(&field, (14, 10), 10, level);
+    window.open(&field, (14, 10), 10, &Distances::default(), level);
     for k in 0..3 {
         window.weigh(&field, k, level);
         assert_eq!(window.step(&field, k, Start::First, level), 0.0);
@@ -138,13 +140,13 @@ fn without_noise_only_equal_patches_weigh() {
     let field = case.field();
     let level = InstructionSet::in_use();
     let mut window = Window::new(&field, 10);
-    window.open(&field, (6, 10), 10, level);
+    window.open(&field, (6, 10), 10, &Distances::default(), level);
     window.weigh(&field, K, level);
-    for (p, w) in window.pixels().iter().zip(window.weights(K)) {
+    for (p, w) in window.pixels(K).iter().zip(window.weights(K)) {
         // A patch of radius 3 around columns up to 11 does not see the edge.
         assert_eq!((p % 30 < 12, *w), (true, 1.0));
     }
-    assert_eq!(window.pixels().len(), 12 * 21);
+    assert_eq!(window.pixels(K).len(), 12 * 21);
 }
 
 /// Fitted values of one channel, and the sum of the first step.
@@ -152,7 +154,7 @@ fn fitted(case: &Case) -> (Vec<f32>, f64) {
     let field = case.field();
     let level = InstructionSet::in_use();
     let mut window = Window::new(&field, 10);
-    window.open(&field, (16, 12), 10, level);
+    window.open(&field, (16, 12), 10, &Distances::default(), level);
     window.weigh(&field, K, level);
     let sum = window.step(&field, K, Start::First, level);
     window.fit(&field, K, false, level);
@@ -203,8 +205,8 @@ fn bits_are_equal_on_every_instruction_set() {
             let mut sums = Vec::new();
             let mut window = Window::new(&field, 15);
             for (center, radius) in [((20, 15), 15), ((3, 30), 10), ((43, 2), 5)] {
-                window.open(&field, center, radius, level);
-                out.extend(window.pixels());
+                window.open(&field, center, radius, &Distances::default(), level);
+                out.extend(window.pixels(2));
                 for k in 0..3 {
                     window.weigh(&field, k, level);
                     sums.push(window.step(&field, k, Start::First, level).to_bits());
