@@ -10,8 +10,10 @@
 
 mod engine;
 pub mod flash_filter;
+pub mod guided;
 #[doc(hidden)]
 pub mod inside;
+pub mod joint_nlm;
 pub mod nlm;
 mod real;
 pub mod regression;

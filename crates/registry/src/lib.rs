@@ -25,6 +25,7 @@ pub use table::params_table;
 pub fn builtin() -> Vec<Arc<dyn Factory>> {
     let mut methods = vec![noisefloor_denoiser::mc(), noisefloor_virtual_flash::virtual_flash()];
     methods.extend(noisefloor_rdfc::methods());
+    methods.push(noisefloor_robust_first_order::method());
     methods.push(noisefloor_geometric::geometric_corrected());
     methods.push(noisefloor_geometric::geometric_as_written());
     methods.extend(noisefloor_baselines::methods());

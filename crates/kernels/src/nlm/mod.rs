@@ -30,7 +30,7 @@
 mod error;
 mod hot;
 mod layout;
-mod maps;
+pub(crate) mod maps;
 pub mod naive;
 mod output;
 mod params;

@@ -1,3 +1,4 @@
-//! First-order models of the colour, fitted by weighted least squares.
+//! Weighted first-order regression over windows.
 
 pub mod dense;
+pub mod models;

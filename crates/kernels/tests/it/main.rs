@@ -3,6 +3,9 @@
 mod dense;
 mod exp2;
 mod flash_filter;
+mod guided;
+mod joint_nlm;
 mod mirror;
+mod models;
 mod nlm;
 mod tiles;

@@ -4,7 +4,7 @@ use crate::engine::{EXP2, LEAST_EXPONENT, ROUND};
 
 /// e^(−max(0, d)) to 3e-7 relative; 1 exactly for d ≤ 0; 0 where it is below the range of normal numbers, and for NaN.
 #[inline(always)]
-pub(super) fn exponential(distance: f32) -> f32 {
+pub(crate) fn exponential(distance: f32) -> f32 {
     let x = distance * -std::f32::consts::LOG2_E;
     // Not `min`, which would drop a NaN.
     let x = if x > 0.0 { 0.0 } else { x };

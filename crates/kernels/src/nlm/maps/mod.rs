@@ -8,7 +8,7 @@
 
 mod boxes;
 mod counts;
-mod exponential;
+pub(crate) mod exponential;
 mod features;
 mod frames;
 mod guided;

@@ -1,0 +1,202 @@
+//! Images that models are made from.
+
+use super::{LANES, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS};
+use crate::engine::{first_bad, mirror};
+
+/// Planes of one value per pixel.
+#[derive(Clone, Debug)]
+pub struct Planes<'a> {
+    /// M, three channels.
+    pub guide: [&'a [f32]; 3],
+    /// V, the variance of M that its distances are measured against.
+    pub guide_variance: [&'a [f32]; 3],
+    /// u, the image to fit.
+    pub target: [&'a [f32]; 3],
+    /// Var_0, mean of the channels.
+    pub variance: &'a [f32],
+    /// What squared errors are multiplied by before they are added up.
+    pub importance: &'a [f32],
+    /// Feature channels, at most [`MAX_FEATURES`].
+    pub features: Vec<&'a [f32]>,
+}
+
+/// What all models share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rules {
+    /// Patch radius of distances in pixels, at most [`MAX_PATCH_RADIUS`].
+    pub patch_radius: usize,
+    /// σ_r, above 0.
+    pub range_sigma: f32,
+    /// Bandwidths k, ascending, above 0, at most [`MAX_BANDWIDTHS`].
+    pub bandwidths: Vec<f32>,
+    /// Weights below this are 0; 0 to 0.5.
+    pub least_weight: f32,
+    /// Ridge on the slopes over Σw, 0 for none.
+    pub ridge: f64,
+}
+
+/// What cannot be modelled.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FieldError {
+    /// A number is out of range.
+    #[error("{name} = {value}: allowed {allowed}")]
+    Number {
+        /// What it is.
+        name: &'static str,
+        /// Value handed in.
+        value: f64,
+        /// Allowed values.
+        allowed: &'static str,
+    },
+    /// A plane does not hold exactly one value per pixel.
+    #[error("a plane holds {actual} values, the image has {expected} pixels")]
+    PlaneLength {
+        /// Number of pixels.
+        expected: usize,
+        /// Length of the slice handed in.
+        actual: usize,
+    },
+    /// A value that is no number, too large, or a negative variance.
+    #[error("value {value} at pixel {pixel}: values are at most 1e15 in magnitude, variances from 0 to 1e30")]
+    Value {
+        /// Value handed in.
+        value: f32,
+        /// Index of the pixel.
+        pixel: usize,
+    },
+}
+
+/// Largest magnitude of a value.
+const MOST: f32 = 1e15;
+
+/// One line of cache for each pixel: features, M, u, Var_0, importance.
+pub(super) const GUIDE: usize = MAX_FEATURES;
+pub(super) const TARGET: usize = GUIDE + 3;
+pub(super) const VARIANCE: usize = TARGET + 3;
+pub(super) const IMPORTANCE: usize = VARIANCE + 1;
+
+/// Everything of a pixel in one place, and M and V with a border for patches.
+#[derive(Clone, Debug)]
+pub struct Field {
+    pub(super) width: usize,
+    pub(super) height: usize,
+    pub(super) rules: Rules,
+    pub(super) records: Vec<[f32; LANES]>,
+    pub(super) features: usize,
+    /// Least step of each column's scale: 10⁻³ of its range in the image, with x and y before the features.
+    pub(super) floors: [f32; 2 + MAX_FEATURES],
+    /// M and V, three channels each, mirrored.
+    pub(super) patches: [Vec<f32>; 6],
+    /// Row length of `patches`.
+    pub(super) pitch: usize,
+}
+
+impl Field {
+    /// Brings planes of `width`·`height` values into place.
+    ///
+    /// # Errors
+    /// The first thing that is wrong.
+    pub fn new(width: usize, height: usize, planes: &Planes<'_>, rules: Rules) -> Result<Self, FieldError> {
+        rules.check()?;
+        check_planes(width, height, planes)?;
+        let features = planes.features.len();
+        let mut records = vec![[0.0f32; LANES]; width * height];
+        let mut put = |at: usize, plane: &[f32]| {
+            for (record, value) in records.iter_mut().zip(plane) {
+                record[at] = *value;
+            }
+        };
+        for (at, plane) in planes.features.iter().enumerate() {
+            put(at, plane);
+        }
+        for c in 0..3 {
+            put(GUIDE + c, planes.guide[c]);
+            put(TARGET + c, planes.target[c]);
+        }
+        put(VARIANCE, planes.variance);
+        put(IMPORTANCE, planes.importance);
+        let mut floors = [0.0; 2 + MAX_FEATURES];
+        floors[0] = 1e-3 * (width - 1) as f32;
+        floors[1] = 1e-3 * (height - 1) as f32;
+        for (floor, plane) in floors[2..].iter_mut().zip(&planes.features) {
+            let (low, high) = plane.iter().fold((f32::MAX, f32::MIN), |(l, h), v| (l.min(*v), h.max(*v)));
+            *floor = 1e-3 * (high - low);
+        }
+        let f = rules.patch_radius;
+        // Rows may be read to the end of their last lanes.
+        let pitch = (width + 2 * f).next_multiple_of(LANES) + LANES;
+        let bordered = |plane: &[f32]| {
+            let mut out = vec![0.0; pitch * (height + 2 * f)];
+            for (j, row) in out.chunks_mut(pitch).enumerate() {
+                let from = mirror(j as isize - f as isize, height) * width;
+                for (i, value) in row[..width + 2 * f].iter_mut().enumerate() {
+                    *value = plane[from + mirror(i as isize - f as isize, width)];
+                }
+            }
+            out
+        };
+        let [a, b, c] = planes.guide.map(bordered);
+        let [d, e, g] = planes.guide_variance.map(bordered);
+        Ok(Self { width, height, rules, records, features, floors, patches: [a, b, c, d, e, g], pitch })
+    }
+
+    /// Bandwidths of its models.
+    #[must_use]
+    pub fn bandwidths(&self) -> &[f32] {
+        &self.rules.bandwidths
+    }
+
+    /// M at a pixel.
+    #[must_use]
+    pub fn guide_at(&self, pixel: usize) -> [f32; 3] {
+        [0, 1, 2].map(|c| self.records[pixel][GUIDE + c])
+    }
+}
+
+impl Rules {
+    fn check(&self) -> Result<(), FieldError> {
+        let number = |name, value: f64, good: bool, allowed| {
+            if good { Ok(()) } else { Err(FieldError::Number { name, value, allowed }) }
+        };
+        let patch = self.patch_radius;
+        number("patch radius", patch as f64, patch <= MAX_PATCH_RADIUS, "0 to 3")?;
+        let in_range = |v: f32| v > 1e-6 && v < 1e6;
+        number("range sigma", self.range_sigma.into(), in_range(self.range_sigma), "1e-6 to 1e6")?;
+        let count = self.bandwidths.len();
+        number("bandwidths", count as f64, (1..=MAX_BANDWIDTHS).contains(&count), "1 to 8 of them")?;
+        for (i, k) in self.bandwidths.iter().enumerate() {
+            let good = in_range(*k) && (i == 0 || self.bandwidths[i - 1] <= *k);
+            number("bandwidth", (*k).into(), good, "1e-6 to 1e6, ascending")?;
+        }
+        let least = self.least_weight;
+        number("least weight", least.into(), (0.0..=0.5).contains(&least), "0 to 0.5")?;
+        number("ridge", self.ridge, (0.0..=1e6).contains(&self.ridge), "0 to 1e6")
+    }
+}
+
+fn check_planes(width: usize, height: usize, planes: &Planes<'_>) -> Result<(), FieldError> {
+    let side = |name, value: usize| match value {
+        0 => Err(FieldError::Number { name, value: 0.0, allowed: "1 or more" }),
+        _ => Ok(()),
+    };
+    side("width", width)?;
+    side("height", height)?;
+    if planes.features.len() > MAX_FEATURES {
+        let value = planes.features.len() as f64;
+        return Err(FieldError::Number { name: "features", value, allowed: "0 to 7" });
+    }
+    let values = planes.guide.iter().chain(&planes.target).chain(&planes.features);
+    let values = values.map(|plane| (*plane, -MOST, MOST));
+    let squares = planes.guide_variance.iter().chain([&planes.variance, &planes.importance]);
+    let squares = squares.map(|plane| (*plane, 0.0, MOST * MOST));
+    for (plane, least, most) in values.chain(squares) {
+        if plane.len() != width * height {
+            return Err(FieldError::PlaneLength { expected: width * height, actual: plane.len() });
+        }
+        if let Some(pixel) = first_bad(plane, |v| (least..=most).contains(&v)) {
+            return Err(FieldError::Value { value: plane[pixel], pixel });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,63 @@
+//! Every pixel is predicted by a model that looks like it.
+
+use noisefloor_denoiser::Output;
+use noisefloor_frame::{FeatureId, Image};
+use noisefloor_robust_first_order::{Params, Tiling};
+
+use crate::common::{diagnose, diagnostic, figure, frame, step};
+
+/// Pixels whose weights sum to less than θ, or that no model covers.
+fn uncovered(output: &Output, theta: f32) -> usize {
+    let sums = diagnostic(output, "sum of weights");
+    let models = diagnostic(output, "models that cover a pixel");
+    (0..sums.pixels()).filter(|&p| sums.plane(0)[p] < theta || models.plane(0)[p] < 1.0).count()
+}
+
+#[test]
+fn weights_sum_to_the_least_weight_at_least_at_every_size() {
+    for (width, height) in [(1, 1), (31, 31), (37, 53), (5, 64)] {
+        let noisy = frame(&step(width, height), 0.05, 31);
+        for tiling in [Tiling::ThreeByThree, Tiling::Literal, Tiling::AllDetail, Tiling::Dense] {
+            for coverage in [0.01, 0.1, 0.5, 1.0] {
+                let params = Params { coverage, tiling, ..Params::default() };
+                assert_eq!(uncovered(&diagnose(&params, &noisy), coverage as f32), 0, "{width}x{height}");
+            }
+        }
+    }
+}
+
+#[test]
+fn weights_sum_to_the_least_weight_at_least_in_a_large_image() {
+    // Without features and noise of its own: few models, so that the size is affordable.
+    let mut large = frame(&Image::filled(800, 800, 3, 0.5), 0.01, 32);
+    large.features.clear();
+    let output = diagnose(&Params::default(), &large);
+    assert_eq!(uncovered(&output, 0.1), 0);
+    // A model for each of 26×26 tiles at least.
+    assert!(figure(&output, "models") >= 676.0);
+}
+
+#[test]
+fn models_are_as_few_as_the_least_weight_lets_them() {
+    let noisy = frame(&step(62, 62), 0.05, 33);
+    let count = |coverage| figure(&diagnose(&Params { coverage, ..Params::default() }, &noisy), "models");
+    let counts = [0.01, 0.1, 0.3, 1.0].map(count);
+    assert!(counts.windows(2).all(|pair| pair[0] <= pair[1]), "{counts:?}");
+    // As printed, windows alone cover everything.
+    assert!(count(0.0) <= 36.0 && counts[0] >= 4.0);
+}
+
+#[test]
+fn detail_gets_small_windows() {
+    // Squares of 4 pixels in the albedo of the left half, nothing in the right one.
+    let mut noisy = frame(&Image::filled(62, 31, 3, 0.5), 0.02, 34);
+    let chequered =
+        Image::from_fn(62, 31, 3, |_, x, y| if x < 31 && (x / 4 + y / 4) % 2 == 0 { 1.0 } else { 0.0 });
+    noisy.features.insert(FeatureId::Albedo, crate::common::exact(&chequered).color);
+    let output = diagnose(&Params::default(), &noisy);
+    let tiles = diagnostic(&output, "detailed tiles");
+    assert_eq!([tiles.get(0, 5, 5), tiles.get(0, 40, 5)], [1.0, 0.0]);
+    assert_eq!(figure(&output, "share of detailed tiles"), 0.5);
+    let radius = diagnostic(&output, "radius of the heaviest model");
+    assert_eq!([radius.get(0, 15, 15), radius.get(0, 46, 15)], [5.0, 15.0]);
+}
