@@ -54,6 +54,13 @@ const STUDIES: &[BuiltinStudy] = studies![
     "rdfc-fig09",
     "rdfc-profiles",
     "rdfc-spacetime",
+    "liu-fig01",
+    "liu-fig02",
+    "liu-fig03",
+    "liu-fig04",
+    "liu-fig05",
+    "liu-fig06",
+    "liu-ablation",
     "geometric-claim",
     "geometric-size",
 ];
