@@ -1,38 +1,39 @@
 //! The regression: tile by tile the weights of all windows, then row by row models and what they predict.
 
-use super::distances::{Distances, Group};
+use super::distances::Group;
 use super::guide::{GROUP, Layout, lines, scaled_variances};
-use super::moments::{Area, Row, Slots, add_row};
-use super::params::{Fit, Join, Planes, Solver};
-use super::predict::{Line, Models};
+use super::model::Model;
+use super::moments::Slots;
+use super::params::{Fit, Planes, Solver};
+use super::prediction::Prediction;
 use super::solve::Normal;
 use super::units;
+use super::weigh::Weigh;
 use crate::engine::{
-    Copies, Grid, InstructionSet, Kernel, LINE, MAX_LANES, Plane, Scratch, Simd, Tile, Window, for_each_tile,
-    map_tiles,
+    Copies, Grid, InstructionSet, LINE, MAX_LANES, Plane, Scratch, Tile, Window, for_each_tile, map_tiles,
 };
 
 /// Tile, (width, height) in pixels: wider than any window's radius, so that windows reach into the tiles beside it alone.
 const TILE: (usize, usize) = (32, 32);
 
 /// One call's constants, shared by all workers.
-struct Job<'a> {
-    fit: &'a Fit,
-    planes: &'a Planes<'a>,
-    variances: Vec<Vec<f32>>,
-    layout: Layout,
-    slots: Slots,
+pub(super) struct Job<'a> {
+    pub fit: &'a Fit,
+    pub planes: &'a Planes<'a>,
+    pub variances: Vec<Vec<f32>>,
+    pub layout: Layout,
+    pub slots: Slots,
     /// Of the features, over the image.
-    ranges: Vec<f64>,
+    pub ranges: Vec<f64>,
     /// Copies of features and colours with the window around the tile; sums of predictions alike.
-    area: Grid,
-    level: InstructionSet,
+    pub area: Grid,
+    pub level: InstructionSet,
 }
 
 /// A worker's memory.
 struct Memory {
-    single: Scratch,
-    double: Scratch<f64>,
+    pub single: Scratch,
+    pub double: Scratch<f64>,
 }
 
 /// Runs a checked call.
@@ -69,7 +70,7 @@ pub(super) fn regress(fit: &Fit, planes: &Planes<'_>, level: InstructionSet) -> 
                         if tx < across
                             && let Some(prediction) = predictions.get(ty * across + tx)
                         {
-                            prediction.add(tile, j, sums);
+                            prediction.add(tile, j, sums, TILE.0);
                         }
                     }
                 }
@@ -83,37 +84,6 @@ pub(super) fn regress(fit: &Fit, planes: &Planes<'_>, level: InstructionSet) -> 
         },
     );
     out
-}
-
-/// Sums of the predictions of one tile's models: three colours, then Σ w, for the tile and the window around it.
-struct Prediction {
-    tile: Tile,
-    reach: usize,
-    sums: Vec<f32>,
-}
-
-impl Prediction {
-    /// Adds what they say of row `j` of a tile to four rows of sums.
-    fn add(&self, to: Tile, j: usize, sums: &mut [f64]) {
-        let (columns, rows) = (self.tile.width + 2 * self.reach, self.tile.height + 2 * self.reach);
-        let Some(row) = (to.y + j + self.reach).checked_sub(self.tile.y).filter(|row| *row < rows) else {
-            return;
-        };
-        // Column `i` of the tile is column `i + shift` here.
-        let shift = (to.x + self.reach) as isize - self.tile.x as isize;
-        let first = (-shift).max(0) as usize;
-        let end = (columns as isize - shift).clamp(0, to.width as isize) as usize;
-        if first >= end {
-            return;
-        }
-        for c in 0..4 {
-            let start = ((c * rows + row) * columns).wrapping_add_signed(shift);
-            let from = &self.sums[start.wrapping_add(first)..];
-            for (sum, value) in sums[c * TILE.0 + first..c * TILE.0 + end].iter_mut().zip(from) {
-                *sum += f64::from(*value);
-            }
-        }
-    }
 }
 
 impl Job<'_> {
@@ -151,12 +121,12 @@ impl Job<'_> {
 
     /// Values from the weights of one row of the tile to those of the next: a line more, so that rows fall into different
     /// cache sets.
-    fn weights_of_row(&self) -> usize {
+    pub fn weights_of_row(&self) -> usize {
         self.layout.side() * self.layout.side() * self.layout.wide + LINE
     }
 
     /// Units of one feature in a tile.
-    fn units(&self) -> usize {
+    pub fn units(&self) -> usize {
         TILE.1 * self.layout.wide
     }
 
@@ -207,7 +177,7 @@ impl Job<'_> {
     }
 
     /// Columns of the window around a column of the image, or around the last one.
-    fn columns(&self, x: usize) -> usize {
+    pub fn columns(&self, x: usize) -> usize {
         let (reach, last) = (self.layout.weighting.window, self.layout.weighting.width - 1);
         let x = x.min(last);
         (x + reach).min(last) - x.saturating_sub(reach) + 1
@@ -248,205 +218,15 @@ impl Job<'_> {
 }
 
 /// A worker's planes.
-struct View<'a> {
-    guide: &'a Plane,
-    border: &'a Plane,
-    area: &'a Plane<f64>,
-    vertical: &'a mut Plane,
-    weights: &'a mut Plane,
-    sums: &'a mut Plane<f64>,
-    work: &'a mut Plane<f64>,
-    moments: &'a mut Plane<f64>,
-    coefficients: &'a mut Plane<f64>,
-    base: &'a mut Plane<f64>,
-}
-
-/// Weights of one group of offsets.
-struct Weigh<'a, 'b> {
-    job: &'a Job<'a>,
-    tile: Tile,
-    group: &'a Group,
-    view: &'a mut View<'b>,
-}
-
-impl Kernel for Weigh<'_, '_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(self, s: S) {
-        match self.job.layout.weighting.patch {
-            0 => self.weigh::<S, 0>(s),
-            1 => self.weigh::<S, 1>(s),
-            2 => self.weigh::<S, 2>(s),
-            _ => self.weigh::<S, 3>(s),
-        }
-    }
-}
-
-impl Weigh<'_, '_> {
-    #[inline(always)]
-    fn weigh<S: Simd, const F: usize>(self, s: S) {
-        let Self { job, tile, group, view } = self;
-        let layout = &job.layout;
-        let distances = Distances { layout, guide: view.guide, width: tile.width };
-        distances.down::<S, F>(s, group, view.vertical);
-        let reach = layout.weighting.window as isize;
-        let offset = (group.dy + reach) as usize * layout.side() + (group.dx + reach) as usize;
-        let joined = if job.fit.join == Join::Mean { layout.channels } else { 1 };
-        for row in group.rows.clone() {
-            let factor = s.splat(layout.row_factor(tile.y + row, group.dy, joined));
-            for i in 0..group.count {
-                let dx = group.dx + i as isize;
-                let to = row * job.weights_of_row() + (offset + i) * layout.wide;
-                let mut x = 0;
-                while x < tile.width {
-                    let mut sum = distances.patch::<S, F>(s, view.vertical, (0, i), row, x);
-                    for c in 1..layout.channels {
-                        let other = distances.patch::<S, F>(s, view.vertical, (c, i), row, x);
-                        sum = if job.fit.join == Join::Mean { s.add(sum, other) } else { s.max(sum, other) };
-                    }
-                    let mut weight = distances.weight(s, sum, view.border, factor, dx, x);
-                    if dx == 0 && group.dy == 0 {
-                        weight = s.max(weight, s.load(view.border, layout.own() + x));
-                    }
-                    s.store(view.weights, to + x, weight);
-                    x += S::LANES;
-                }
-            }
-        }
-    }
-}
-
-/// Models of a tile and what they predict.
-struct Model<'a, 'b> {
-    job: &'a Job<'a>,
-    tile: Tile,
-    view: &'a mut View<'b>,
-    normal: &'a mut Normal,
-    units: &'a [f64],
-}
-
-impl Kernel for Model<'_, '_> {
-    type Out = ();
-
-    #[inline(always)]
-    fn run<S: Simd>(mut self, s: S) {
-        for row in 0..self.tile.height {
-            let mut x = 0;
-            while x < self.tile.width {
-                self.sum(s, row, x);
-                self.solve::<S>(row, x);
-                x += S::DOUBLES;
-            }
-            self.predict(s, row);
-        }
-    }
-}
-
-impl Model<'_, '_> {
-    /// Rows of the window of a row of the tile that lie in the image.
-    fn rows(&self, row: usize) -> std::ops::RangeInclusive<isize> {
-        let (y, reach) = ((self.tile.y + row) as isize, self.reach());
-        let last = self.job.layout.weighting.height as isize - 1;
-        (-reach).max(-y)..=reach.min(last - y)
-    }
-
-    fn reach(&self) -> isize {
-        self.job.layout.weighting.window as isize
-    }
-
-    /// Where the row's pixels are in the area, and their neighbours at dx = −R.
-    fn places(&self, row: usize, dy: isize) -> [usize; 2] {
-        let area = &self.job.area;
-        let here = area.origin() + row * area.pitch;
-        [here, here.wrapping_add_signed(dy * area.pitch as isize - self.reach())]
-    }
-
-    /// Where the weights of dx = −R start.
-    fn weights(&self, row: usize, dy: isize) -> usize {
-        let layout = &self.job.layout;
-        row * self.job.weights_of_row() + (dy + self.reach()) as usize * layout.side() * layout.wide
-    }
-
-    /// Moments of the models of a vector of pixels.
-    #[inline(always)]
-    fn sum<S: Simd>(&mut self, s: S, row: usize, x: usize) {
-        let slots = self.job.slots;
-        for i in 0..slots.sums() {
-            s.store_doubles(self.view.moments, i * S::DOUBLES, s.splat_double(0.0));
-        }
-        for dy in self.rows(row) {
-            let [here, there] = self.places(row, dy);
-            let of_window = Row {
-                here: here + x,
-                there: there + x,
-                weights: self.weights(row, dy) + x,
-                step: self.job.layout.wide,
-                dy,
-                reach: self.reach(),
-            };
-            let area = Area { planes: self.view.area, plane: self.job.area.plane };
-            let View { weights, work, moments, .. } = &mut *self.view;
-            add_row(s, &slots, area, (weights, of_window), work, moments);
-        }
-    }
-
-    /// Coefficients of the models of a vector of pixels.
-    #[inline(always)]
-    fn solve<S: Simd>(&mut self, row: usize, x: usize) {
-        let tall = self.rows(row).count();
-        let Self { job, view, normal, .. } = self;
-        let (slots, wide) = (job.slots, job.layout.wide);
-        let count = 3 + slots.features;
-        let absent = if job.fit.positions { 0..0 } else { 1..3 };
-        for lane in 0..S::DOUBLES {
-            normal.fill(&slots, |i| view.moments.get(i * S::DOUBLES + lane));
-            let coefficients = match job.fit.solver {
-                Solver::Dropped => {
-                    let pixels = tall * job.columns(self.tile.x + x + lane);
-                    normal.dropped(count, absent.clone(), pixels)
-                }
-                Solver::MinimalNorm => {
-                    // Positions by the full window's side, also where it is cut.
-                    let side = (2 * job.layout.weighting.window).max(1) as f64;
-                    let at = row * wide + x + lane;
-                    let unit = |j: usize| j.checked_sub(3).map_or(side, |j| self.units[j * job.units() + at]);
-                    normal.minimal_norm(count, absent.clone(), unit)
-                }
-            };
-            for (j, three) in coefficients.iter().enumerate().take(count) {
-                for (c, value) in three.iter().enumerate() {
-                    view.coefficients.set((3 * j + c) * wide + x + lane, *value);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn predict<S: Simd>(&mut self, s: S, row: usize) {
-        let (job, area) = (self.job, &self.job.area);
-        for dy in self.rows(row) {
-            let [here, there] = self.places(row, dy);
-            let line = Line {
-                here,
-                there,
-                weights: self.weights(row, dy),
-                step: job.layout.wide,
-                sums: there,
-                plane: area.plane,
-                dy,
-                reach: self.reach(),
-                width: self.tile.width,
-                wide: job.layout.wide,
-            };
-            let View { area: planes, weights, coefficients, base, sums, .. } = &mut *self.view;
-            let models = Models {
-                features: job.slots.features,
-                area: Area { planes, plane: area.plane },
-                weights,
-                coefficients,
-            };
-            models.add(s, line, base, sums);
-        }
-    }
+pub(super) struct View<'a> {
+    pub guide: &'a Plane,
+    pub border: &'a Plane,
+    pub area: &'a Plane<f64>,
+    pub vertical: &'a mut Plane,
+    pub weights: &'a mut Plane,
+    pub sums: &'a mut Plane<f64>,
+    pub work: &'a mut Plane<f64>,
+    pub moments: &'a mut Plane<f64>,
+    pub coefficients: &'a mut Plane<f64>,
+    pub base: &'a mut Plane<f64>,
 }

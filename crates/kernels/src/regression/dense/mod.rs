@@ -29,13 +29,16 @@ mod fit;
 mod guide;
 mod means;
 mod minimal_norm;
+mod model;
 mod moments;
 pub mod naive;
 mod params;
 mod predict;
+mod prediction;
 mod solve;
 mod spectrum;
 mod units;
+mod weigh;
 
 pub use crate::nlm::Channel;
 pub use error::DenseError;

@@ -154,7 +154,7 @@ fn dropped(rows: &[Vec<f64>], right: &[[f64; 3]], weights: &[f64]) -> Vec<[f64; 
     let largest = left.iter().map(|v| square(v)).fold(0.0, f64::max);
     // Gram-Schmidt, the longest first, and twice.
     let mut basis: Vec<Vec<f64>> = Vec::new();
-    while !left.is_empty() {
+    while !left.is_empty() && basis.len() < rows.len() {
         let longest =
             (0..left.len()).max_by(|&a, &b| square(&left[a]).total_cmp(&square(&left[b])).then(b.cmp(&a)));
         let mut column = left.remove(longest.unwrap_or(0));

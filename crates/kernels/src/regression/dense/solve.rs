@@ -85,7 +85,8 @@ impl Normal {
             let (left, pivot) = best;
             // The threshold falls with the rows of the window that are left.
             let share = pixels.saturating_sub(rank) as f64 / pixels as f64;
-            if pivot == count || left < LEAST_PIVOT * largest * share {
+            // Nor are there more columns than pixels: what were left of another is rounding.
+            if pivot == count || rank == pixels || left < LEAST_PIVOT * largest * share {
                 break;
             }
             waits[pivot] = false;

@@ -32,15 +32,22 @@ struct Case {
 }
 
 impl Case {
-    /// A third of the variances is zero; differences are of the size of the noise.
+    /// Differences are of the size of the noise, but for a step in the middle; one in two hundred variances is zero, so that
+    /// patches without such pairs remain.
     fn random(width: usize, height: usize, features: usize) -> Self {
         let mut u = Uniforms((width * 1000 + height * 10 + features) as u64);
         let n = width * height;
-        let variance = |u: &mut Uniforms| if u.next() < 0.33 { 0.0 } else { 0.1 * u.next() };
-        let weighting = Weighting { width, height, window: 9, patch: 3, k: 1.0, scale: 2.0, epsilon: 1e-7 };
+        let variance = |u: &mut Uniforms| if u.next() < 0.005 { 0.0 } else { 0.002 + 0.004 * u.next() };
+        let mut p = 0;
+        let mut value = |u: &mut Uniforms| {
+            let side = if 2 * (p % width) < width { 0.2 } else { 0.35 };
+            p += 1;
+            side + 0.3 * u.next()
+        };
+        let weighting = Weighting { width, height, window: 9, patch: 3, k: 0.5, scale: 2.0, epsilon: 1e-7 };
         Self {
             fit: Fit { weighting, join: Join::Minimum, solver: Solver::Dropped, positions: true },
-            guide: (0..3).map(|_| [u.plane(n, |u| 0.2 + 0.3 * u.next()), u.plane(n, variance)]).collect(),
+            guide: (0..3).map(|_| [u.plane(n, &mut value), u.plane(n, variance)]).collect(),
             features: (0..features).map(|_| u.plane(n, Uniforms::next)).collect(),
             image: [0, 1, 2].map(|_| u.plane(n, Uniforms::next)),
         }
