@@ -257,7 +257,8 @@ impl Vectorised for Open<'_> {
             *farthest = -field.rules.least_weight.ln() / factor(field, k);
         }
         let farthest = &farthest[..bandwidths];
-        let mut next = [0; MAX_BANDWIDTHS + 1];
+        // One more place for what no bandwidth gives a weight.
+        let mut next = [0; MAX_BANDWIDTHS + 2];
         for distances in window.map[..pitch * rows.len()].chunks(pitch) {
             for distance in &distances[..columns.len()] {
                 next[first_of(farthest, *distance) + 1] += 1;
@@ -265,8 +266,8 @@ impl Vectorised for Open<'_> {
         }
         for k in 0..bandwidths {
             next[k + 1] += next[k];
-            window.counts[k] = next[k + 1];
         }
+        window.counts[..bandwidths].copy_from_slice(&next[1..=bandwidths]);
         let n = window.counts[bandwidths - 1];
 
         window.center = [own[GUIDE], own[GUIDE + 1], own[GUIDE + 2]];
@@ -384,8 +385,8 @@ impl Vectorised for Step<'_, '_> {
             Start::Images { value, variance } => {
                 for (i, p) in window.pixels[..window.counts[k]].iter().enumerate() {
                     let (g, l, p) = (i / LANES, i % LANES, *p as usize);
-                    for c in 0..3 {
-                        window.start[c][g][l] = value[c][p] - window.center[c];
+                    for ((start, value), center) in window.start.iter_mut().zip(value).zip(window.center) {
+                        start[g][l] = value[p] - center;
                     }
                     window.start[3][g][l] = variance[p];
                 }

@@ -2,6 +2,7 @@
 
 mod oracle;
 mod properties;
+mod statistics;
 
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Field, Planes, Rules};
