@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::GuidedParams;
 use super::solve::{Normal, solve};
-use super::sums::{Boxes, Room};
+use super::sums::{Boxes, Room, Rows};
 use crate::engine::Vectorised;
 
 /// Rows from `first` on, as many as `out` holds of each target.
@@ -30,54 +30,34 @@ impl Vectorised for Band<'_, '_> {
         // Windows that contain a pixel of the band, and what they see.
         let centers = wider(&rows);
         let seen = wider(&centers);
-        let boxes = Boxes { width, height, radius };
+        let boxes = Boxes::new(width, height, radius);
         let mut room = Room::new(width, seen.len());
+        let means_of = Rows { boxes: &boxes, seen: &seen, centers: &centers };
 
-        let part = |plane: &[f32], mean: f64, rows: &Range<usize>| -> Vec<f64> {
-            plane[rows.start * width..rows.end * width].iter().map(|v| f64::from(*v) - mean).collect()
-        };
-        let guide: Vec<Vec<f64>> =
-            self.guide.iter().zip(self.guide_means).map(|(plane, mean)| part(plane, *mean, &seen)).collect();
+        let mut guide: Vec<Vec<f64>> = Vec::new();
+        let mut means: Vec<Vec<f64>> = Vec::new();
+        for (plane, mean) in self.guide.iter().zip(self.guide_means) {
+            guide.push(part(plane, *mean, width, &seen));
+            means.push(means_of.mean(&guide[guide.len() - 1], &mut room));
+        }
         let n = guide.len();
-        let mut product = vec![0.0; seen.len() * width];
-        let mut mean_of = |a: &[f64], b: Option<&[f64]>, room: &mut Room| -> Vec<f64> {
-            let mut out = vec![0.0; centers.len() * width];
-            match b {
-                Some(b) => {
-                    for ((p, a), b) in product.iter_mut().zip(a).zip(b) {
-                        *p = a * b;
-                    }
-                    boxes.means(&product, &seen, &mut out, &centers, room);
-                }
-                None => boxes.means(a, &seen, &mut out, &centers, room),
-            }
-            out
-        };
-        let means: Vec<Vec<f64>> = guide.iter().map(|i| mean_of(i, None, &mut room)).collect();
         // Cov(I, I), lower triangle by rows.
         let mut covariances = Vec::new();
         for i in 0..n {
             for j in 0..=i {
-                let mut of = mean_of(&guide[i], Some(&guide[j]), &mut room);
-                for ((c, a), b) in of.iter_mut().zip(&means[i]).zip(&means[j]) {
-                    *c -= a * b;
-                }
-                covariances.push(of);
+                let (a, b) = ((&*guide[i], &*means[i]), (&*guide[j], &*means[j]));
+                covariances.push(means_of.covariance(a, b, &mut room));
             }
         }
         let mut band_mean = vec![0.0; rows.len() * width];
         let skip = (rows.start - seen.start) * width;
         for (t, out) in self.out.iter_mut().enumerate() {
-            let target = part(self.targets[t], self.target_means[t], &seen);
-            let mut b = mean_of(&target, None, &mut room);
+            let target = part(self.targets[t], self.target_means[t], width, &seen);
+            let mut b = means_of.mean(&target, &mut room);
             // Cov(I, y), which become a.
             let mut a: Vec<Vec<f64>> = Vec::new();
-            for i in 0..n {
-                let mut of = mean_of(&guide[i], Some(&target), &mut room);
-                for ((c, x), y) in of.iter_mut().zip(&means[i]).zip(&b) {
-                    *c -= x * y;
-                }
-                a.push(of);
+            for (guide, mean) in guide.iter().zip(&means) {
+                a.push(means_of.covariance((guide, mean), (&target, &b), &mut room));
             }
             if n == 1 {
                 for (a, variance) in a[0].iter_mut().zip(&covariances[0]) {
@@ -110,4 +90,10 @@ impl Vectorised for Band<'_, '_> {
             }
         }
     }
+}
+
+/// Rows of a plane, less its mean.
+#[inline(always)]
+fn part(plane: &[f32], mean: f64, width: usize, rows: &Range<usize>) -> Vec<f64> {
+    plane[rows.start * width..rows.end * width].iter().map(|v| f64::from(*v) - mean).collect()
 }

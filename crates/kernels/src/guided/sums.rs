@@ -6,15 +6,17 @@ use std::ops::Range;
 const DIRECT: usize = 4;
 
 /// Boxes of one radius in one image.
-#[derive(Clone, Copy)]
 pub(super) struct Boxes {
     pub width: usize,
     pub height: usize,
     pub radius: usize,
+    /// 1 over the columns of the box around each column.
+    pub over: Vec<f64>,
 }
 
 /// Working memory.
 pub(super) struct Room {
+    product: Vec<f64>,
     across: Vec<f64>,
     starts: Vec<f64>,
     ends: Vec<f64>,
@@ -22,11 +24,57 @@ pub(super) struct Room {
 
 impl Room {
     pub fn new(width: usize, rows: usize) -> Self {
-        Self { across: vec![0.0; width * rows], starts: Vec::new(), ends: Vec::new() }
+        let rows = || vec![0.0; width * rows];
+        Self { product: rows(), across: rows(), starts: Vec::new(), ends: Vec::new() }
+    }
+}
+
+/// The rows that means are taken from and for.
+pub(super) struct Rows<'a> {
+    pub boxes: &'a Boxes,
+    pub seen: &'a Range<usize>,
+    pub centers: &'a Range<usize>,
+}
+
+// Functions and no closures: those may be compiled without the instruction set.
+impl Rows<'_> {
+    /// Means of a plane.
+    #[inline(always)]
+    pub fn mean(&self, a: &[f64], room: &mut Room) -> Vec<f64> {
+        let mut out = vec![0.0; self.centers.len() * self.boxes.width];
+        self.boxes.means(a, self.seen, &mut out, self.centers, room);
+        out
+    }
+
+    /// Covariances of two planes with these means.
+    #[inline(always)]
+    pub fn covariance(
+        &self,
+        (a, mean_a): (&[f64], &[f64]),
+        (b, mean_b): (&[f64], &[f64]),
+        room: &mut Room,
+    ) -> Vec<f64> {
+        let mut product = std::mem::take(&mut room.product);
+        for ((p, a), b) in product.iter_mut().zip(a).zip(b) {
+            *p = a * b;
+        }
+        let mut out = self.mean(&product, room);
+        room.product = product;
+        for ((c, a), b) in out.iter_mut().zip(mean_a).zip(mean_b) {
+            *c -= a * b;
+        }
+        out
     }
 }
 
 impl Boxes {
+    #[inline(always)]
+    pub fn new(width: usize, height: usize, radius: usize) -> Self {
+        // The box has the pixel itself at least.
+        let over = (0..width).map(|x| 1.0 / count(x, radius, width) as f64).collect();
+        Self { width, height, radius, over }
+    }
+
     /// Means over boxes around the pixels of rows `to`, of values of rows `from`, which hold all that the boxes see of the image.
     #[inline(always)]
     pub fn means(
@@ -47,10 +95,9 @@ impl Boxes {
             self.down_by_runs(&room.across, from, out, to, (&mut room.starts, &mut room.ends));
         }
         for (y, row) in to.clone().zip(out.chunks_mut(width)) {
-            let tall = count(y, radius, self.height);
-            for (x, value) in row.iter_mut().enumerate() {
-                // The box has the pixel itself at least.
-                *value /= (tall * count(x, radius, width)) as f64;
+            let tall = 1.0 / count(y, radius, self.height) as f64;
+            for (value, wide) in row.iter_mut().zip(&self.over) {
+                *value *= tall * wide;
             }
         }
     }

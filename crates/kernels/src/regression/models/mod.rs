@@ -21,8 +21,10 @@ mod field;
 #[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod moments;
 pub mod naive;
+mod open;
 #[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod solve;
+mod steps;
 mod window;
 
 pub use distances::{Area, Distances};

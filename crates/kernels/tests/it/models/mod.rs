@@ -2,6 +2,7 @@
 
 mod oracle;
 mod properties;
+mod statistics;
 
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Field, Planes, Rules};
@@ -24,13 +25,19 @@ impl Case {
     pub fn new(width: usize, height: usize, seed: u64) -> Self {
         let mut random = Random(seed);
         let pixels = width * height;
-        let features: Vec<Vec<f32>> = (0..7)
+        let mut features: Vec<Vec<f32>> = (0..7)
             .map(|f| {
                 let at =
                     |p: usize| (p % width) as f32 * 0.02 * (f as f32 - 3.0) + ((p / width) % 5) as f32 * 0.1;
                 (0..pixels).map(|p| at(p) + 0.05 * random.uniform()).collect()
             })
             .collect();
+        // One that is far from its range in the image in most windows.
+        features[6]
+            .iter_mut()
+            .enumerate()
+            .filter(|(p, _)| p % width + 1 == width)
+            .for_each(|(_, v)| *v += 500.0);
         let truth = |c: usize, p: usize| {
             f32::from(p % width > width / 2) + 0.3 * features[1][p] + 0.1 * c as f32 + 0.5
         };

@@ -59,8 +59,8 @@ fn weights_fits_biases_and_variances_are_those_of_the_hat_matrix() {
                         let bias: f64 = (0..3).map(|c| (next[c][j] - value[c][j]).powi(2)).sum();
                         expected += twin.weights[j] * importance[j] * (bias / 3.0 + spread[j]);
                     }
-                    for c in 0..3 {
-                        assert!(off(window.value(k)[c], m[c], &next[c], &kept) < 1e-4, "step {t}");
+                    for ((got, next), m) in window.value(k).iter().zip(&next).zip(m) {
+                        assert!(off(got, m, next, &kept) < 1e-4, "step {t}");
                     }
                     // Variances are at most 0.05.
                     assert!(off(window.variance(k), 0.0, &spread, &kept) < 1e-5, "step {t}");
@@ -68,10 +68,10 @@ fn weights_fits_biases_and_variances_are_those_of_the_hat_matrix() {
                     (value, variance) = (next, spread);
                 }
                 window.fit(&field, k, false, level);
-                for c in 0..3 {
+                for (c, m) in m.into_iter().enumerate() {
                     let (u, g) = (twin.times(&of(&case.target[c])), twin.times(&of(&case.guide[c])));
-                    assert!(off(window.fitted()[c], m[c], &u, &kept) < 1e-4);
-                    assert!(off(window.refitted()[c], m[c], &g, &kept) < 1e-4);
+                    assert!(off(window.fitted()[c], m, &u, &kept) < 1e-4);
+                    assert!(off(window.refitted()[c], m, &g, &kept) < 1e-4);
                 }
                 window.fit(&field, k, true, level);
                 assert_eq!(window.fitted(), window.refitted());
