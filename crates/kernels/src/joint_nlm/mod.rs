@@ -37,7 +37,7 @@ pub use params::{
 /// let noisy: Vec<f32> = (0..8).map(|x| if x < 4 { 0.2 } else { 0.8 } + if x % 2 == 0 { 0.01 } else { -0.01 }).collect();
 /// let channel = JointChannel { value: &noisy, variance: &[1e-4; 8], sigma: 0.25 };
 /// let params = JointParams {
-///     width: 8, height: 1, window_radius: 5, patch_radius: 3, k: 1.0, spatial_sigma: 2.0, range_sigma: 1.0,
+///     width: 8, height: 1, window_radius: 5, patch_radius: 0, k: 1.0, spatial_sigma: 10.0, range_sigma: 1.0,
 /// };
 /// let out = &filter(&params, &[channel])?[0];
 /// assert!((out[3] - 0.2).abs() < 0.006 && (out[4] - 0.8).abs() < 0.006);
