@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::GuidedParams;
+use super::params::GuidedParams;
 use super::solve::{Normal, solve};
 use super::sums::{Boxes, Room, Rows};
 use crate::engine::Vectorised;

@@ -1,6 +1,6 @@
 //! The filter as nested loops in `f64`, straight from the formulas: the oracle of the tests.
 
-use super::{GuidedError, GuidedParams};
+use super::params::{GuidedError, GuidedParams};
 
 /// a and b of one window.
 type Line = (Vec<f64>, f64);

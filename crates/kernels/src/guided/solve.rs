@@ -1,6 +1,6 @@
 //! Small symmetric systems.
 
-use super::MAX_GUIDE_CHANNELS;
+use super::params::MAX_GUIDE_CHANNELS;
 
 /// A matrix that is positive semidefinite, lower triangle.
 pub(super) struct Normal {

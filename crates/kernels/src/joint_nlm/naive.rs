@@ -1,6 +1,6 @@
 //! The filter as nested loops in `f64`, straight from the equations: the oracle of the tests.
 
-use super::{JointChannel, JointError, JointParams};
+use super::params::{JointChannel, JointError, JointParams};
 use crate::engine::mirror;
 
 /// [`super::filter`], one neighbour after another.

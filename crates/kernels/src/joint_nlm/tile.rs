@@ -1,7 +1,7 @@
 //! The filter in one tile.
 
 use super::distance::squared;
-use super::{JointChannel, JointParams};
+use super::params::{JointChannel, JointParams};
 use crate::engine::{Tile, TileRows, Vectorised, Window, mirror};
 use crate::nlm::maps::exponential::exponential;
 

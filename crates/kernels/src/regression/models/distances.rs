@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use super::Field;
+use super::field::Field;
 use crate::InstructionSet;
 use crate::engine::Vectorised;
 use crate::joint_nlm::squared;

@@ -1,6 +1,6 @@
 //! Images that models are made from.
 
-use super::{LANES, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS};
+use super::size::{LANES, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS};
 use crate::engine::{first_bad, mirror};
 
 /// Planes of one value per pixel.
@@ -145,6 +145,13 @@ impl Field {
     #[must_use]
     pub fn bandwidths(&self) -> &[f32] {
         &self.rules.bandwidths
+    }
+
+    /// 1/(2σ_r²k²) of bandwidth number `k`.
+    #[inline(always)]
+    pub(super) fn factor(&self, k: usize) -> f32 {
+        let width = self.rules.range_sigma * self.rules.bandwidths[k];
+        0.5 / (width * width)
     }
 
     /// M at a pixel.

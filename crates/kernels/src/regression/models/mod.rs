@@ -22,6 +22,7 @@ mod field;
 mod moments;
 pub mod naive;
 mod open;
+mod size;
 #[allow(clippy::needless_range_loop, reason = "indices are those of a matrix")]
 mod solve;
 mod steps;
@@ -29,19 +30,6 @@ mod window;
 
 pub use distances::{Area, Distances};
 pub use field::{Field, FieldError, Planes, Rules};
-pub use window::{Start, Window};
-
-/// Values that are worked on together.
-pub(crate) const LANES: usize = 16;
-/// [`LANES`] values of one column.
-pub(crate) type Lanes = [f32; LANES];
-/// Most feature channels.
-pub const MAX_FEATURES: usize = 7;
-/// Columns of X: 1, x, y and features; those that are not there are 0.
-pub const COLUMNS: usize = 3 + MAX_FEATURES;
-/// Largest window radius in pixels.
-pub const MAX_RADIUS: usize = 32;
-/// Most bandwidths.
-pub const MAX_BANDWIDTHS: usize = 8;
-/// Largest patch radius in pixels.
-pub const MAX_PATCH_RADIUS: usize = 3;
+pub use size::{COLUMNS, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS, MAX_RADIUS};
+pub use steps::Start;
+pub use window::Window;

@@ -1,7 +1,7 @@
 //! Sums over the pixels of a window.
 
+use super::size::{COLUMNS, LANES, Lanes};
 use super::solve::Square;
-use super::{COLUMNS, LANES, Lanes};
 
 /// Rows and columns of sums that are made together: as many as stay in registers.
 const TALL: usize = 2;

@@ -1,6 +1,6 @@
 //! One model in `f64` with its hat matrix, straight from the equations: the oracle of the tests.
 
-use super::{Planes, Rules};
+use super::field::{Planes, Rules};
 use crate::engine::mirror;
 
 /// A model around one pixel.

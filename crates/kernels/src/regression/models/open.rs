@@ -1,18 +1,33 @@
 //! Going to a window: distances, scales, columns of X.
 
 use super::distances::{self, Distances, from_center};
-use super::field::{GUIDE, IMPORTANCE, TARGET, VARIANCE};
-use super::steps::factor;
+use super::field::{Field, GUIDE, IMPORTANCE, TARGET, VARIANCE};
+use super::size::{COLUMNS, LANES, MAX_BANDWIDTHS, MAX_FEATURES};
 use super::window::Window;
-use super::{COLUMNS, Field, LANES, MAX_BANDWIDTHS, MAX_FEATURES};
+use crate::InstructionSet;
 use crate::engine::Vectorised;
 
-pub(super) struct Open<'a> {
-    pub window: &'a mut Window,
-    pub field: &'a Field,
-    pub center: (usize, usize),
-    pub radius: usize,
-    pub known: &'a Distances,
+impl Window {
+    /// Goes to the window of `radius` around `center`, at most the radius that there is room for. Distances that `known` holds
+    /// are taken from it, with the same result.
+    pub fn open(
+        &mut self,
+        field: &Field,
+        center: (usize, usize),
+        radius: usize,
+        known: &Distances,
+        level: InstructionSet,
+    ) {
+        level.run(Open { window: self, field, center, radius, known });
+    }
+}
+
+struct Open<'a> {
+    window: &'a mut Window,
+    field: &'a Field,
+    center: (usize, usize),
+    radius: usize,
+    known: &'a Distances,
 }
 
 impl Vectorised for Open<'_> {
@@ -58,7 +73,7 @@ impl Vectorised for Open<'_> {
         let bandwidths = field.rules.bandwidths.len();
         let mut farthest = [f32::INFINITY; MAX_BANDWIDTHS];
         for (k, farthest) in farthest.iter_mut().enumerate().take(bandwidths) {
-            *farthest = -field.rules.least_weight.ln() / factor(field, k);
+            *farthest = -field.rules.least_weight.ln() / field.factor(k);
         }
         let farthest = &farthest[..bandwidths];
         // One more place for what no bandwidth gives a weight.

@@ -1,6 +1,6 @@
 //! Inverse normal matrices.
 
-use super::COLUMNS;
+use super::size::COLUMNS;
 
 /// Row length of a [`Square`]: whole vectors.
 const ROW: usize = 12;

@@ -1,25 +1,54 @@
 //! One model in the window: weights, steps of its error estimate, its fit.
 
+use super::field::Field;
 use super::moments::{Design, predict, quadratic, sides, square, total};
-use super::window::{Column, Model, Start, Window};
-use super::{COLUMNS, Field, LANES, Lanes};
+use super::size::{COLUMNS, LANES, Lanes};
+use super::window::{Column, Model, Window};
+use crate::InstructionSet;
 use crate::engine::Vectorised;
 use crate::nlm::maps::exponential::exponential;
 
 /// A ridge below this leaves too few digits of sums in `f32`.
 const FINE: f64 = 1e-4;
 
-/// 1/(2σ_r²k²) of bandwidth number `k`.
-#[inline(always)]
-pub(super) fn factor(field: &Field, k: usize) -> f32 {
-    let width = field.rules.range_sigma * field.rules.bandwidths[k];
-    0.5 / (width * width)
+/// What a step of the error estimate starts from: y_{t−1} and Var_{t−1}.
+#[derive(Clone, Copy, Debug)]
+pub enum Start<'a> {
+    /// y_0 = M and Var_0.
+    First,
+    /// Whole images.
+    Images {
+        /// y_{t−1}, three channels.
+        value: [&'a [f32]; 3],
+        /// Var_{t−1}, mean of the channels.
+        variance: &'a [f32],
+    },
+    /// What the last step with the same bandwidth gave in this window.
+    Own,
 }
 
-pub(super) struct Weigh<'a> {
-    pub window: &'a mut Window,
-    pub field: &'a Field,
-    pub k: usize,
+impl Window {
+    /// Weights of bandwidth number `k`, and the normal matrix with them.
+    pub fn weigh(&mut self, field: &Field, k: usize, level: InstructionSet) {
+        level.run(Weigh { window: self, field, k });
+    }
+
+    /// One step of Eq. 11 with bandwidth number `k`, which has been [weighed](Window::weigh). Gives Σ_j w(i,j)·importance(j)·(bias_t²
+    /// + Var_t), bias² the mean of the channels.
+    pub fn step(&mut self, field: &Field, k: usize, start: Start<'_>, level: InstructionSet) -> f64 {
+        level.run(Step { window: self, field, k, start })
+    }
+
+    /// Fits u, or M where `prefiltered`, and M with bandwidth number `k`.
+    pub fn fit(&mut self, field: &Field, k: usize, prefiltered: bool, level: InstructionSet) {
+        level.run(Fit { window: self, field, k, prefiltered });
+    }
+}
+
+struct Weigh<'a> {
+    window: &'a mut Window,
+    field: &'a Field,
+    k: usize,
 }
 
 impl Vectorised for Weigh<'_> {
@@ -28,7 +57,7 @@ impl Vectorised for Weigh<'_> {
     #[inline(always)]
     fn run(self) {
         let Self { window, field, k } = self;
-        let (factor, least) = (factor(field, k), field.rules.least_weight);
+        let (factor, least) = (field.factor(k), field.rules.least_weight);
         let groups = window.groups(k);
         let model = &mut window.models[k];
         for (weights, distances) in model.weights[..groups].iter_mut().zip(&window.distances) {
@@ -48,11 +77,11 @@ impl Vectorised for Weigh<'_> {
     }
 }
 
-pub(super) struct Step<'a, 'b> {
-    pub window: &'a mut Window,
-    pub field: &'a Field,
-    pub k: usize,
-    pub start: Start<'b>,
+struct Step<'a, 'b> {
+    window: &'a mut Window,
+    field: &'a Field,
+    k: usize,
+    start: Start<'b>,
 }
 
 impl Vectorised for Step<'_, '_> {
@@ -127,11 +156,11 @@ impl Vectorised for Step<'_, '_> {
     }
 }
 
-pub(super) struct Fit<'a> {
-    pub window: &'a mut Window,
-    pub field: &'a Field,
-    pub k: usize,
-    pub prefiltered: bool,
+struct Fit<'a> {
+    window: &'a mut Window,
+    field: &'a Field,
+    k: usize,
+    prefiltered: bool,
 }
 
 impl Vectorised for Fit<'_> {

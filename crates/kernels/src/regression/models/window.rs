@@ -1,28 +1,10 @@
 //! One model: its window, weights, steps of its error estimate, and its fit.
 
-use super::distances::{self, Distances};
+use super::distances;
+use super::field::Field;
 use super::moments::total;
-use super::open::Open;
+use super::size::{COLUMNS, LANES, Lanes, MAX_BANDWIDTHS};
 use super::solve::Square;
-use super::steps::{Fit, Step, Weigh};
-use super::{COLUMNS, Field, LANES, Lanes, MAX_BANDWIDTHS};
-use crate::InstructionSet;
-
-/// What a step of the error estimate starts from: y_{t−1} and Var_{t−1}.
-#[derive(Clone, Copy, Debug)]
-pub enum Start<'a> {
-    /// y_0 = M and Var_0.
-    First,
-    /// Whole images.
-    Images {
-        /// y_{t−1}, three channels.
-        value: [&'a [f32]; 3],
-        /// Var_{t−1}, mean of the channels.
-        variance: &'a [f32],
-    },
-    /// What the last step with the same bandwidth gave in this window.
-    Own,
-}
 
 /// Columns of one value per pixel that takes part.
 pub(super) type Column = Vec<Lanes>;
@@ -103,35 +85,6 @@ impl Window {
             fitted: [(); 6].map(|()| column()),
             chosen: 0,
         }
-    }
-
-    /// Goes to the window of `radius` around `center`, at most the radius that there is room for. Distances that `known` holds
-    /// are taken from it, with the same result.
-    pub fn open(
-        &mut self,
-        field: &Field,
-        center: (usize, usize),
-        radius: usize,
-        known: &Distances,
-        level: InstructionSet,
-    ) {
-        level.run(Open { window: self, field, center, radius, known });
-    }
-
-    /// Weights of bandwidth number `k`, and the normal matrix with them.
-    pub fn weigh(&mut self, field: &Field, k: usize, level: InstructionSet) {
-        level.run(Weigh { window: self, field, k });
-    }
-
-    /// One step of Eq. 11 with bandwidth number `k`, which has been [weighed](Window::weigh). Gives Σ_j w(i,j)·importance(j)·(bias_t²
-    /// + Var_t), bias² the mean of the channels.
-    pub fn step(&mut self, field: &Field, k: usize, start: Start<'_>, level: InstructionSet) -> f64 {
-        level.run(Step { window: self, field, k, start })
-    }
-
-    /// Fits u, or M where `prefiltered`, and M with bandwidth number `k`.
-    pub fn fit(&mut self, field: &Field, k: usize, prefiltered: bool, level: InstructionSet) {
-        level.run(Fit { window: self, field, k, prefiltered });
     }
 
     /// Pixels that take part in bandwidth number `k`, as indices into the image. What is said of pixels below is in this order.
