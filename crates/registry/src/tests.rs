@@ -97,8 +97,8 @@ fn unknown_names_list_the_nearest_ones_with_their_ranges() {
         .unwrap_err()
         .to_string();
     assert!(error.contains("radius_max_px") && error.contains("65") && error.contains("0 to 64"), "{error}");
-    let inner = registry.build("guarded(nfor)", &Map::new()).unwrap_err();
-    assert!(matches!(inner, BuildError::UnknownMethod { ref id, .. } if id == "nfor"));
+    let inner = registry.build("guarded(nothing)", &Map::new()).unwrap_err();
+    assert!(matches!(inner, BuildError::UnknownMethod { ref id, .. } if id == "nothing"));
 }
 
 #[test]
