@@ -3,9 +3,11 @@
 use noisefloor_denoiser::{Citation, Cost, Entry, Invariance, MethodCard, Need, Published};
 use noisefloor_frame::FeatureId;
 
-use super::ID;
 use super::params::{Depth, Exposure, Params, Profile};
 use super::settings::Settings;
+
+/// Stable id.
+pub(super) const ID: &str = "nfor";
 
 /// The source work.
 pub const CITATION: Citation = Citation::with_entry(

@@ -4,10 +4,11 @@ use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image};
 use noisefloor_toolbox::{scaled_sample_variance, smoothed_half_variance};
 
+use super::card::ID;
+use super::half;
 use super::kernel::{EPSILON, Guided, MOST, MOST_SQUARE, Sizes, filter, within};
 use super::params::{Depth, Guide, Params};
 use super::settings::Settings;
-use super::{ID, half};
 
 /// A feature before it is filtered.
 #[derive(Debug, Clone)]

@@ -6,7 +6,7 @@ use noisefloor_kernels::regression::dense::{
     Alone, Channel, DenseError, Fit, Planes, Weighting, means, regress as fit,
 };
 
-use super::ID;
+use super::card::ID;
 use super::settings::Settings;
 
 /// Largest magnitude of a colour or feature; ours: a tenth of what the kernels take, as means are rounded.

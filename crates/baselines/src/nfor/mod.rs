@@ -24,6 +24,7 @@ use noisefloor_toolbox::scaled_sample_variance;
 
 use algorithm::Done;
 use candidates::Color;
+use card::ID;
 use settings::Settings;
 
 pub use card::CITATION;
@@ -31,7 +32,6 @@ pub use params::{
     Channels, Depth, Exposure, Guide, NegativeError, Params, Profile, Solver, VarianceScaling,
 };
 
-const ID: &str = "nfor";
 /// Largest value that is filtered; ours. Brighter frames are filtered darker, by a power of two.
 const BRIGHT: f32 = 1e10;
 

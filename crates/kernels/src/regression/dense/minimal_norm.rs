@@ -2,7 +2,8 @@
 
 #![expect(clippy::needless_range_loop, reason = "indices of matrices, as formulas have them")]
 
-use super::solve::{MOST, Normal};
+use super::params::MOST;
+use super::solve::Normal;
 use super::spectrum::Spectrum;
 
 /// Share of the largest eigenvalue up to which others count as 0.

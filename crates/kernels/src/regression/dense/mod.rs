@@ -27,6 +27,7 @@ mod distances;
 mod error;
 mod fit;
 mod guide;
+mod job;
 mod means;
 mod minimal_norm;
 mod model;

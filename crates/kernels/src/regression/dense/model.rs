@@ -1,6 +1,6 @@
 //! The models of a tile, row by row: moments, solution, predictions.
 
-use super::fit::{Job, View};
+use super::job::{Job, View};
 use super::moments::{Area, Row, add_row};
 use super::params::Solver;
 use super::predict::{Line, Models};

@@ -10,6 +10,8 @@ pub const MAX_WINDOW_RADIUS: usize = 16;
 pub const MAX_PATCH_RADIUS: usize = 3;
 /// Most scalar features of a model.
 pub const MAX_FEATURES: usize = 29;
+/// Most columns of a model: the constant, positions and features.
+pub(super) const MOST: usize = 3 + MAX_FEATURES;
 /// Most channels of one call of [`super::means`].
 pub const MAX_CHANNELS: usize = 32;
 /// Range of ε.

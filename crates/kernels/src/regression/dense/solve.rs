@@ -1,14 +1,12 @@
 //! Coefficients of one model from its moments.
 
 use super::moments::Slots;
+use super::params::MOST;
 use super::spectrum::Spectrum;
 
 /// What must be left of a column's square after the others have taken their part, in units of the largest square: the square
 /// of the precision of `f32`, in which the program decides.
 const LEAST_PIVOT: f64 = (f32::EPSILON as f64) * (f32::EPSILON as f64);
-
-/// Most columns of a model.
-pub(super) const MOST: usize = 3 + super::params::MAX_FEATURES;
 
 /// Values of a row that are computed at a time; divides [`MOST`].
 const BLOCK: usize = 4;

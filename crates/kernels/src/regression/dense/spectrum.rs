@@ -4,7 +4,7 @@
 
 #![expect(clippy::needless_range_loop, reason = "indices of matrices, as formulas have them")]
 
-use super::solve::MOST;
+use super::params::MOST;
 
 /// Most rounds of rotations for one eigenvalue; two are usual.
 const ROUNDS: usize = 50;

@@ -1,7 +1,7 @@
 //! The weights of all windows of a tile.
 
 use super::distances::{Distances, Group};
-use super::fit::{Job, View};
+use super::job::{Job, View};
 use super::params::Join;
 use crate::engine::{Kernel, Simd, Tile};
 
