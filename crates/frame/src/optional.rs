@@ -6,6 +6,7 @@
 //! beside the table.
 
 mod gathered;
+mod names;
 mod recorded;
 mod rows;
 mod statistic;
