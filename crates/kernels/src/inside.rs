@@ -3,7 +3,8 @@
 
 use crate::engine::{InstructionSet, Kernel, MAX_LANES, Plane, Simd};
 use crate::flash_filter::{self, FlashFilterError, FlashInputs, FlashParams};
-use crate::nlm::{self, Filtered, NlmError, NlmInputs, NlmParams, Pass};
+use crate::nlm::{self, Filtered, NlmInputs, NlmParams, Pass};
+use crate::{KernelError, check};
 
 pub use crate::engine::{Tile, TileRows, first_bad, for_each_tile};
 
@@ -17,11 +18,9 @@ pub fn nlm_in_tiles(
     inputs: &NlmInputs<'_>,
     level: InstructionSet,
     tile: (usize, usize),
-) -> Result<Vec<Filtered>, NlmError> {
+) -> Result<Vec<Filtered>, KernelError> {
     params.check(passes, inputs)?;
-    if !level.is_available() {
-        return Err(NlmError::LevelUnavailable { level });
-    }
+    check::available(level)?;
     Ok(nlm::in_tiles(params, passes, inputs, level, Some(tile)))
 }
 

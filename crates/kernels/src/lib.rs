@@ -8,7 +8,9 @@
 //!
 //! This is the only crate of the workspace that may use `unsafe`.
 
+mod check;
 mod engine;
+mod error;
 pub mod flash_filter;
 pub mod guided;
 #[doc(hidden)]
@@ -19,3 +21,4 @@ mod real;
 pub mod regression;
 
 pub use engine::{InstructionSet, NotForced, UnknownInstructionSet, Vectorised, mirror};
+pub use error::KernelError;

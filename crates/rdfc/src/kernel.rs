@@ -6,9 +6,8 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
-use noisefloor_kernels::nlm::{
-    Channel, Filtered, MAX_VALUE, NlmError, NlmInputs, NlmParams, Pass, Planes, filter,
-};
+use noisefloor_kernels::KernelError;
+use noisefloor_kernels::nlm::{Channel, Filtered, MAX_VALUE, NlmInputs, NlmParams, Pass, Planes, filter};
 
 /// Channels of a guide.
 pub(crate) fn channels<'a>(value: &'a Image, variance: &'a Image) -> Vec<Channel<'a>> {
@@ -54,6 +53,6 @@ pub(crate) fn within_range(image: Image) -> Image {
 }
 
 /// The engine refuses what was checked before it ran; should it find more, its message is kept.
-pub(crate) fn kernel_error(method: &str, error: &NlmError) -> DenoiseError {
+pub(crate) fn kernel_error(method: &str, error: &KernelError) -> DenoiseError {
     DenoiseError::of_kernel(method, error)
 }

@@ -2,8 +2,9 @@
 
 use noisefloor_denoiser::DenoiseError;
 use noisefloor_frame::Image;
+use noisefloor_kernels::KernelError;
 use noisefloor_kernels::regression::dense::{
-    Alone, Channel, DenseError, Fit, Planes, Weighting, means, regress as fit,
+    Alone, Channel, Fit, Planes, Weighting, means, regress as fit,
 };
 
 use super::card::ID;
@@ -118,6 +119,6 @@ fn planes<'a>(like: &Image, planes: impl Iterator<Item = &'a [f32]>) -> Image {
 }
 
 /// The kernels refuse what nobody mended.
-fn refused(error: &DenseError) -> DenoiseError {
+fn refused(error: &KernelError) -> DenoiseError {
     DenoiseError::of_kernel(ID, error)
 }

@@ -23,10 +23,10 @@ mod sums;
 
 use rayon::prelude::*;
 
-use crate::InstructionSet;
+use crate::{InstructionSet, KernelError};
 use band::Band;
 
-pub use params::{GuidedError, GuidedParams, MAX_GUIDE_CHANNELS, MAX_RADIUS};
+pub use params::{GuidedParams, MAX_GUIDE_CHANNELS, MAX_RADIUS};
 
 /// Least number of rows that are done at a time: their sums stay in the cache.
 const ROWS: usize = 32;
@@ -42,7 +42,7 @@ const ROWS: usize = 32;
 /// let params = GuidedParams { width: 20, height: 1, radius: 3, epsilon: 1e-6 };
 /// let out = &filter(&params, &[&step], &[&noisy])?[0];
 /// assert!((out[9] - 0.05).abs() < 0.02 && (out[10] - 5.05).abs() < 0.02);
-/// # Ok::<(), noisefloor_kernels::guided::GuidedError>(())
+/// # Ok::<(), noisefloor_kernels::KernelError>(())
 /// ```
 ///
 /// # Errors
@@ -51,7 +51,7 @@ pub fn filter(
     params: &GuidedParams,
     guide: &[&[f32]],
     targets: &[&[f32]],
-) -> Result<Vec<Vec<f32>>, GuidedError> {
+) -> Result<Vec<Vec<f32>>, KernelError> {
     filter_at(params, guide, targets, InstructionSet::in_use())
 }
 
@@ -65,7 +65,7 @@ pub fn filter_at(
     guide: &[&[f32]],
     targets: &[&[f32]],
     level: InstructionSet,
-) -> Result<Vec<Vec<f32>>, GuidedError> {
+) -> Result<Vec<Vec<f32>>, KernelError> {
     params.check(guide, targets)?;
     let mut out = vec![vec![0.0f32; params.width * params.height]; targets.len()];
     let means = |planes: &[&[f32]]| planes.iter().map(|plane| mean(plane)).collect::<Vec<_>>();

@@ -1,6 +1,7 @@
 //! The filter as nested loops in `f64`, straight from the formulas: the oracle of the tests.
 
-use super::params::{GuidedError, GuidedParams};
+use super::params::GuidedParams;
+use crate::KernelError;
 
 /// a and b of one window.
 type Line = (Vec<f64>, f64);
@@ -13,7 +14,7 @@ pub fn filter_f64(
     params: &GuidedParams,
     guide: &[&[f32]],
     targets: &[&[f32]],
-) -> Result<Vec<Vec<f64>>, GuidedError> {
+) -> Result<Vec<Vec<f64>>, KernelError> {
     params.check(guide, targets)?;
     let pixels = params.width * params.height;
     let mut out = vec![vec![0.0; pixels]; targets.len()];

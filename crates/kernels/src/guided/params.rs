@@ -1,7 +1,12 @@
 //! Parameters, and what is refused.
 
+use crate::KernelError;
+use crate::check::{self, count, real};
+
 /// Most channels of a guide.
 pub const MAX_GUIDE_CHANNELS: usize = 8;
+/// Most pixels that an image may have.
+pub const MAX_PIXELS: usize = 1 << 31;
 /// Largest window radius in pixels.
 pub const MAX_RADIUS: usize = 4096;
 
@@ -18,68 +23,22 @@ pub struct GuidedParams {
     pub epsilon: f64,
 }
 
-/// A parameter or plane that the filter refuses.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum GuidedError {
-    /// The image has no pixel.
-    #[error("image of {width}x{height} pixels: both sides must be at least 1")]
-    ImageSize {
-        /// Width in pixels.
-        width: usize,
-        /// Height in pixels.
-        height: usize,
-    },
-    /// A plane does not hold exactly one value per pixel.
-    #[error("a plane holds {actual} values, the image has {expected} pixels")]
-    PlaneLength {
-        /// Number of pixels.
-        expected: usize,
-        /// Length of the slice handed in.
-        actual: usize,
-    },
-    /// The radius is too large.
-    #[error("radius = {radius}: allowed 0 to {MAX_RADIUS}")]
-    Radius {
-        /// Value handed in.
-        radius: usize,
-    },
-    /// ε is negative or not finite.
-    #[error("epsilon = {epsilon}: must be at least 0 and finite")]
-    Epsilon {
-        /// Value handed in.
-        epsilon: f64,
-    },
-    /// A guide without channels, or with too many.
-    #[error("a guide of {channels} channels: allowed 1 to {MAX_GUIDE_CHANNELS}")]
-    GuideChannels {
-        /// Number handed in.
-        channels: usize,
-    },
-}
-
 impl GuidedParams {
     /// Checks everything that [`super::filter`] refuses.
     ///
     /// # Errors
     /// The first thing that is wrong.
-    pub fn check(&self, guide: &[&[f32]], targets: &[&[f32]]) -> Result<(), GuidedError> {
-        let Self { width, height, radius, epsilon } = *self;
-        if width == 0 || height == 0 {
-            return Err(GuidedError::ImageSize { width, height });
+    pub fn check(&self, guide: &[&[f32]], targets: &[&[f32]]) -> Result<(), KernelError> {
+        check::size(self.width, self.height, MAX_PIXELS)?;
+        count("radius", self.radius, 0, MAX_RADIUS)?;
+        real("epsilon", self.epsilon as f32, 0.0, f32::MAX)?;
+        count("guide channels", guide.len(), 1, MAX_GUIDE_CHANNELS)?;
+        let size = (self.width, self.height);
+        for (name, planes) in [("guide channel", guide), ("target", targets)] {
+            for (i, plane) in planes.iter().enumerate() {
+                check::length(|| format!("{name} {i}"), plane, size)?;
+            }
         }
-        if radius > MAX_RADIUS {
-            return Err(GuidedError::Radius { radius });
-        }
-        if !(epsilon.is_finite() && epsilon >= 0.0) {
-            return Err(GuidedError::Epsilon { epsilon });
-        }
-        if guide.is_empty() || guide.len() > MAX_GUIDE_CHANNELS {
-            return Err(GuidedError::GuideChannels { channels: guide.len() });
-        }
-        match guide.iter().chain(targets).find(|plane| plane.len() != width * height) {
-            Some(plane) => Err(GuidedError::PlaneLength { expected: width * height, actual: plane.len() }),
-            None => Ok(()),
-        }
+        Ok(())
     }
 }

@@ -16,14 +16,12 @@ pub mod naive;
 mod params;
 mod tile;
 
-use crate::InstructionSet;
 use crate::engine::{TILE, for_each_tile};
+use crate::{InstructionSet, KernelError};
 use tile::{Layout, Work};
 
 pub(crate) use distance::squared;
-pub use params::{
-    JointChannel, JointError, JointParams, MAX_CHANNELS, MAX_PATCH_RADIUS, MAX_VALUE, MAX_WINDOW_RADIUS,
-};
+pub use params::{JointChannel, JointParams, MAX_CHANNELS, MAX_PATCH_RADIUS, MAX_VALUE, MAX_WINDOW_RADIUS};
 
 /// Filters every channel, with the fastest instruction set of this machine.
 ///
@@ -41,9 +39,9 @@ pub use params::{
 /// };
 /// let out = &filter(&params, &[channel])?[0];
 /// assert!((out[3] - 0.2).abs() < 0.006 && (out[4] - 0.8).abs() < 0.006);
-/// # Ok::<(), noisefloor_kernels::joint_nlm::JointError>(())
+/// # Ok::<(), noisefloor_kernels::KernelError>(())
 /// ```
-pub fn filter(params: &JointParams, channels: &[JointChannel<'_>]) -> Result<Vec<Vec<f32>>, JointError> {
+pub fn filter(params: &JointParams, channels: &[JointChannel<'_>]) -> Result<Vec<Vec<f32>>, KernelError> {
     filter_at(params, channels, InstructionSet::in_use())
 }
 
@@ -56,7 +54,7 @@ pub fn filter_at(
     params: &JointParams,
     channels: &[JointChannel<'_>],
     level: InstructionSet,
-) -> Result<Vec<Vec<f32>>, JointError> {
+) -> Result<Vec<Vec<f32>>, KernelError> {
     params.check(channels)?;
     let layout = Layout::new(params, channels.len(), TILE);
     let mut out = vec![vec![0.0f32; params.width * params.height]; channels.len()];

@@ -1,13 +1,14 @@
 //! The filter as nested loops in `f64`, straight from the equations: the oracle of the tests.
 
-use super::params::{JointChannel, JointError, JointParams};
+use super::params::{JointChannel, JointParams};
+use crate::KernelError;
 use crate::engine::mirror;
 
 /// [`super::filter`], one neighbour after another.
 ///
 /// # Errors
 /// As [`JointParams::check`].
-pub fn filter_f64(params: &JointParams, channels: &[JointChannel<'_>]) -> Result<Vec<Vec<f64>>, JointError> {
+pub fn filter_f64(params: &JointParams, channels: &[JointChannel<'_>]) -> Result<Vec<Vec<f64>>, KernelError> {
     params.check(channels)?;
     let (width, height, r) = (params.width, params.height, params.window_radius);
     let spatial = 2.0 * f64::from(params.spatial_sigma).powi(2);

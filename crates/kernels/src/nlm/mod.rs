@@ -27,7 +27,6 @@
 //! With a [`Perturbation`] a pass also gives the derivative of the filtered guide by the guide's own value at p, as a
 //! finite difference: what Stein's unbiased risk estimate needs (Sec. 6, below Eq. 5).
 
-mod error;
 mod hot;
 mod layout;
 pub(crate) mod maps;
@@ -37,7 +36,6 @@ mod params;
 mod rules;
 mod tiled;
 
-pub use error::NlmError;
 pub use params::{
     Center, Channel, Denominator, Feature, FeatureChannel, Filtered, GuideDenominator, MAX_EPSILON,
     MAX_FEATURE_CHANNELS, MAX_FLOOR, MAX_GUIDE_CHANNELS, MAX_K, MAX_PASSES, MAX_PATCH_RADIUS, MAX_PIXELS,
@@ -48,6 +46,7 @@ pub use params::{
 pub use rules::{Border, PAIR_LIMIT, Pairs, Smoothing, Taps, WeightRules};
 
 use crate::engine::{InstructionSet, TILE};
+use crate::{KernelError, check};
 
 /// Filters with the fastest instruction set of this machine: for each pass all targets.
 ///
@@ -67,30 +66,28 @@ use crate::engine::{InstructionSet, TILE};
 /// let filtered = &filter(&NlmParams::new(6, 1, 5, 0.45), &[pass], &inputs)?[0];
 /// assert!(filtered.planes[0][..3].iter().all(|v| (v - 0.5 / 3.0).abs() < 1e-6));
 /// assert!(filtered.weight_sum.iter().all(|w| (w - 3.0).abs() < 1e-6));
-/// # Ok::<(), noisefloor_kernels::nlm::NlmError>(())
+/// # Ok::<(), noisefloor_kernels::KernelError>(())
 /// ```
 pub fn filter(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-) -> Result<Vec<Filtered>, NlmError> {
+) -> Result<Vec<Filtered>, KernelError> {
     filter_at(params, passes, inputs, InstructionSet::in_use())
 }
 
 /// Filters with a given instruction set. Every level gives the same bits.
 ///
 /// # Errors
-/// As [`NlmParams::check`], and [`NlmError::LevelUnavailable`].
+/// As [`NlmParams::check`], and [`KernelError::LevelUnavailable`].
 pub fn filter_at(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
     level: InstructionSet,
-) -> Result<Vec<Filtered>, NlmError> {
+) -> Result<Vec<Filtered>, KernelError> {
     params.check(passes, inputs)?;
-    if !level.is_available() {
-        return Err(NlmError::LevelUnavailable { level });
-    }
+    check::available(level)?;
     Ok(in_tiles(params, passes, inputs, level, None))
 }
 

@@ -6,9 +6,10 @@
 use std::marker::PhantomData;
 
 use super::{
-    Border, Center, Denominator, Filtered, GuideDenominator, NlmError, NlmInputs, NlmParams, PAIR_LIMIT,
-    Pairs, Pass, Planes, Rule, Taps,
+    Border, Center, Denominator, Filtered, GuideDenominator, NlmInputs, NlmParams, PAIR_LIMIT, Pairs, Pass,
+    Planes, Rule, Taps,
 };
+use crate::KernelError;
 use crate::engine::mirror;
 use crate::real::Real;
 
@@ -370,7 +371,7 @@ fn filter<R: Real>(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-) -> Result<Vec<Filtered<R>>, NlmError> {
+) -> Result<Vec<Filtered<R>>, KernelError> {
     params.check(passes, inputs)?;
     Ok(passes.iter().map(|pass| Sweep { params, inputs, pass, precision: PhantomData }.run()).collect())
 }
@@ -383,7 +384,7 @@ pub fn filter_f64(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-) -> Result<Vec<Filtered<f64>>, NlmError> {
+) -> Result<Vec<Filtered<f64>>, KernelError> {
     filter(params, passes, inputs)
 }
 
@@ -395,6 +396,6 @@ pub fn filter_f32(
     params: &NlmParams,
     passes: &[Pass],
     inputs: &NlmInputs<'_>,
-) -> Result<Vec<Filtered<f32>>, NlmError> {
+) -> Result<Vec<Filtered<f32>>, KernelError> {
     filter(params, passes, inputs)
 }

@@ -1,7 +1,8 @@
 //! Parameters and input planes of the engine, and the check that both make sense. All limits are ours.
 
-use super::{NlmError, Smoothing, WeightRules};
-use crate::engine::first_bad;
+use super::{Smoothing, WeightRules};
+use crate::KernelError;
+use crate::check::{self, count, real};
 
 /// Largest window radius in pixels.
 pub const MAX_WINDOW_RADIUS: usize = 32;
@@ -210,12 +211,9 @@ impl NlmParams {
     /// Checks the parameters and every input value.
     ///
     /// # Errors
-    /// The first thing that is out of range; see [`NlmError`].
-    pub fn check(&self, passes: &[Pass], inputs: &NlmInputs<'_>) -> Result<(), NlmError> {
-        let (width, height) = (self.width, self.height);
-        if !width.checked_mul(height).is_some_and(|n| (1..=MAX_PIXELS).contains(&n)) {
-            return Err(NlmError::ImageSize { width, height, max: MAX_PIXELS });
-        }
+    /// The first thing that is out of range; see [`KernelError`].
+    pub fn check(&self, passes: &[Pass], inputs: &NlmInputs<'_>) -> Result<(), KernelError> {
+        check::size(self.width, self.height, MAX_PIXELS)?;
         count("window radius", self.window_radius, 0, MAX_WINDOW_RADIUS)?;
         real("k", self.k, MIN_K, MAX_K)?;
         real("cancellation", self.cancellation, 0.0, 4.0)?;
@@ -232,7 +230,7 @@ impl NlmParams {
         let frame = &inputs.frame;
         count("number of guide channels", frame.guide.len(), 0, MAX_GUIDE_CHANNELS)?;
         if frame.guide.is_empty() && passes.iter().any(|pass| pass.patch.is_some()) {
-            return Err(NlmError::Mismatch { what: "a pass has a patch, but there is no guide".into() });
+            return Err(KernelError::Mismatch { what: "a pass has a patch, but there is no guide".into() });
         }
         let channels: usize = frame.features.iter().map(Vec::len).sum();
         count("number of feature channels", channels, 0, MAX_FEATURE_CHANNELS)?;
@@ -250,7 +248,7 @@ impl NlmParams {
                 )
             };
             if shape(neighbor) != shape(frame) {
-                return Err(NlmError::Mismatch {
+                return Err(KernelError::Mismatch {
                     what: format!("neighbouring frame {i} has other planes than the frame to filter"),
                 });
             }
@@ -259,44 +257,50 @@ impl NlmParams {
         Ok(())
     }
 
-    fn check_derivative(&self, passes: &[Pass], inputs: &NlmInputs<'_>) -> Result<(), NlmError> {
+    fn check_derivative(&self, passes: &[Pass], inputs: &NlmInputs<'_>) -> Result<(), KernelError> {
         if passes.iter().any(|pass| pass.derivative && pass.patch.is_some()) {
             if self.rules.smoothing != Smoothing::None {
                 // A smoothed weight of p depends on the patches of the pixels around p.
                 let what = "smoothed weights have no derivative by the guide".into();
-                return Err(NlmError::Mismatch { what });
+                return Err(KernelError::Mismatch { what });
             }
             if inputs.perturbation.is_none() {
                 let what = "a pass with a derivative needs a perturbation".into();
-                return Err(NlmError::Mismatch { what });
+                return Err(KernelError::Mismatch { what });
             }
             let channels = inputs.frame.guide.len();
             if channels != 3 {
                 let what = format!("a derivative needs a guide of 3 channels, it has {channels}");
-                return Err(NlmError::Mismatch { what });
+                return Err(KernelError::Mismatch { what });
             }
         }
         if let Some(perturbation) = &inputs.perturbation {
             for (c, step) in perturbation.step.iter().enumerate() {
-                self.check_plane(
-                    || format!("step {c}"),
-                    step,
-                    "0 to 1e15",
-                    |v| (0.0..=MAX_VALUE).contains(&v),
-                )?;
+                self.plane(|| format!("step {c}"), step, "0 to 1e15", |v| (0.0..=MAX_VALUE).contains(&v))?;
             }
         }
         Ok(())
     }
 
-    fn check_planes(&self, whose: &str, planes: &Planes<'_>) -> Result<(), NlmError> {
+    /// One plane and each of its values.
+    fn plane(
+        &self,
+        name: impl Fn() -> String,
+        values: &[f32],
+        allowed: &'static str,
+        good: impl Fn(f32) -> bool + Sync,
+    ) -> Result<(), KernelError> {
+        check::plane(name, values, (self.width, self.height), allowed, good)
+    }
+
+    fn check_planes(&self, whose: &str, planes: &Planes<'_>) -> Result<(), KernelError> {
         let value = |name: &str, i: usize, values: &[f32]| {
             let name = || format!("{name} {i}{whose}");
-            self.check_plane(name, values, "a magnitude of at most 1e15", |v| v.abs() <= MAX_VALUE)
+            self.plane(name, values, "a magnitude of at most 1e15", |v| v.abs() <= MAX_VALUE)
         };
         let variance = |name: &str, i: usize, values: &[f32]| {
             let name = || format!("{name} {i}{whose}");
-            self.check_plane(name, values, "0 to 1e30", |v| (0.0..=MAX_VARIANCE).contains(&v))
+            self.plane(name, values, "0 to 1e30", |v| (0.0..=MAX_VARIANCE).contains(&v))
         };
         for (i, channel) in planes.guide.iter().enumerate() {
             value("guide channel", i, channel.value)?;
@@ -312,36 +316,4 @@ impl NlmParams {
         }
         Ok(())
     }
-
-    /// Checks the length of one plane and each of its values. Generic, so that the test is inlined and vectorised.
-    fn check_plane(
-        &self,
-        plane: impl Fn() -> String,
-        values: &[f32],
-        allowed: &'static str,
-        ok: impl Fn(f32) -> bool + Sync,
-    ) -> Result<(), NlmError> {
-        let expected = self.width * self.height;
-        if values.len() != expected {
-            return Err(NlmError::PlaneLength { plane: plane(), expected, actual: values.len() });
-        }
-        let Some(index) = first_bad(values, ok) else { return Ok(()) };
-        let (x, y) = (index % self.width, index / self.width);
-        Err(NlmError::Value { plane: plane(), x, y, value: values[index], allowed })
-    }
-}
-
-fn count(parameter: &'static str, value: usize, least: usize, most: usize) -> Result<(), NlmError> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(NlmError::Count { parameter, value, least, most })
-}
-
-fn real(parameter: &'static str, value: f32, least: f32, most: f32) -> Result<(), NlmError> {
-    // A NaN is in no range.
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(NlmError::Real { parameter, value, least, most })
 }

@@ -24,7 +24,6 @@
 //! Each pixel's sums are taken in one order whatever the instruction set and the number of threads.
 
 mod distances;
-mod error;
 mod fit;
 mod guide;
 mod job;
@@ -42,13 +41,13 @@ mod units;
 mod weigh;
 
 pub use crate::nlm::Channel;
-pub use error::DenseError;
 pub use params::{
     Alone, Fit, Join, MAX_CHANNELS, MAX_EPSILON, MAX_FEATURES, MAX_K, MAX_PATCH_RADIUS, MAX_SCALE,
     MAX_WINDOW_RADIUS, MIN_EPSILON, MIN_K, MIN_SCALE, Planes, Solver, Weighting,
 };
 
 use crate::engine::InstructionSet;
+use crate::{KernelError, check};
 
 /// Filters every channel by itself with the fastest instruction set of this machine: for each its targets.
 ///
@@ -64,23 +63,23 @@ use crate::engine::InstructionSet;
 /// let weighting = Weighting { width: 6, height: 1, window: 5, patch: 0, k: 0.5, scale: 1.0, epsilon: 1e-7 };
 /// let filtered = means(&weighting, &[Alone { guide, targets: vec![&noisy] }])?;
 /// assert!(filtered[0][0][..3].iter().all(|v| (v - 0.5 / 3.0).abs() < 1e-6));
-/// # Ok::<(), noisefloor_kernels::regression::dense::DenseError>(())
+/// # Ok::<(), noisefloor_kernels::KernelError>(())
 /// ```
-pub fn means(weighting: &Weighting, channels: &[Alone<'_>]) -> Result<Vec<Vec<Vec<f32>>>, DenseError> {
+pub fn means(weighting: &Weighting, channels: &[Alone<'_>]) -> Result<Vec<Vec<Vec<f32>>>, KernelError> {
     means_at(weighting, channels, InstructionSet::in_use())
 }
 
 /// [`means`] with a given instruction set. Every level gives the same bits.
 ///
 /// # Errors
-/// As there, and [`DenseError::LevelUnavailable`].
+/// As there, and [`KernelError::LevelUnavailable`].
 pub fn means_at(
     weighting: &Weighting,
     channels: &[Alone<'_>],
     level: InstructionSet,
-) -> Result<Vec<Vec<Vec<f32>>>, DenseError> {
+) -> Result<Vec<Vec<Vec<f32>>>, KernelError> {
     weighting.check_means(channels)?;
-    available(level)?;
+    check::available(level)?;
     Ok(means::filter(weighting, channels, level))
 }
 
@@ -88,24 +87,20 @@ pub fn means_at(
 ///
 /// # Errors
 /// As [`Fit::check`].
-pub fn regress(fit: &Fit, planes: &Planes<'_>) -> Result<[Vec<f32>; 3], DenseError> {
+pub fn regress(fit: &Fit, planes: &Planes<'_>) -> Result<[Vec<f32>; 3], KernelError> {
     regress_at(fit, planes, InstructionSet::in_use())
 }
 
 /// [`regress`] with a given instruction set. Every level gives the same bits.
 ///
 /// # Errors
-/// As there, and [`DenseError::LevelUnavailable`].
+/// As there, and [`KernelError::LevelUnavailable`].
 pub fn regress_at(
     fit: &Fit,
     planes: &Planes<'_>,
     level: InstructionSet,
-) -> Result<[Vec<f32>; 3], DenseError> {
+) -> Result<[Vec<f32>; 3], KernelError> {
     fit.check(planes)?;
-    available(level)?;
+    check::available(level)?;
     Ok(fit::regress(fit, planes, level))
-}
-
-fn available(level: InstructionSet) -> Result<(), DenseError> {
-    if level.is_available() { Ok(()) } else { Err(DenseError::LevelUnavailable { level }) }
 }

@@ -3,7 +3,8 @@
 //! One thread; every distance is computed from the pixels of both patches, every model from the rows of its window: the
 //! square root of each weight on its row, columns made orthogonal one by one or by rotations of pairs.
 
-use super::{Alone, Channel, DenseError, Fit, Join, Planes, Solver, Weighting};
+use super::{Alone, Channel, Fit, Join, Planes, Solver, Weighting};
+use crate::KernelError;
 
 /// Largest Δ² of one pair of pixels.
 const LARGEST: f64 = 1e4;
@@ -52,7 +53,7 @@ fn weight(distance: f64, d: At) -> f64 {
 ///
 /// # Errors
 /// As there.
-pub fn means(weighting: &Weighting, channels: &[Alone<'_>]) -> Result<Vec<Vec<Vec<f64>>>, DenseError> {
+pub fn means(weighting: &Weighting, channels: &[Alone<'_>]) -> Result<Vec<Vec<Vec<f64>>>, KernelError> {
     weighting.check_means(channels)?;
     let pixels = weighting.width * weighting.height;
     let mut out: Vec<Vec<Vec<f64>>> =
@@ -90,7 +91,7 @@ pub fn joined_weight(fit: &Fit, guide: &[Channel<'_>], p: At, d: At) -> f64 {
 ///
 /// # Errors
 /// As there.
-pub fn regress(fit: &Fit, planes: &Planes<'_>) -> Result<[Vec<f64>; 3], DenseError> {
+pub fn regress(fit: &Fit, planes: &Planes<'_>) -> Result<[Vec<f64>; 3], KernelError> {
     fit.check(planes)?;
     let weighting = &fit.weighting;
     let pixels = weighting.width * weighting.height;

@@ -1,7 +1,7 @@
 //! Parameters and input planes, and the check that they make sense. All limits are ours.
 
-use super::DenseError;
-use crate::engine::first_bad;
+use crate::KernelError;
+use crate::check::{self, count, real};
 use crate::nlm::{Channel, MAX_PIXELS, MAX_VALUE, MAX_VARIANCE};
 
 /// Largest window radius in pixels.
@@ -99,11 +99,8 @@ pub struct Planes<'a> {
 }
 
 impl Weighting {
-    fn check(&self) -> Result<(), DenseError> {
-        let (width, height) = (self.width, self.height);
-        if width == 0 || height == 0 || width.checked_mul(height).is_none_or(|n| n > MAX_PIXELS) {
-            return Err(DenseError::ImageSize { width, height, max: MAX_PIXELS });
-        }
+    fn check(&self) -> Result<(), KernelError> {
+        check::size(self.width, self.height, MAX_PIXELS)?;
         count("window radius", self.window, 0, MAX_WINDOW_RADIUS)?;
         count("patch radius", self.patch, 0, MAX_PATCH_RADIUS)?;
         real("k", self.k, MIN_K, MAX_K)?;
@@ -111,14 +108,14 @@ impl Weighting {
         real("ε", self.epsilon, MIN_EPSILON, MAX_EPSILON)
     }
 
-    fn guide(&self, channel: &Channel<'_>) -> Result<(), DenseError> {
+    fn guide(&self, channel: &Channel<'_>) -> Result<(), KernelError> {
         self.plane("guide", channel.value, "a magnitude of at most 1e15", |v| v.abs() <= MAX_VALUE)?;
         // An unknown variance is NaN: distances are the largest there.
         let known = |v: f32| v.is_nan() || (0.0..=MAX_VARIANCE).contains(&v);
         self.plane("variance", channel.variance, "NaN, or 0 to 1e30", known)
     }
 
-    fn values(&self, name: &'static str, plane: &[f32]) -> Result<(), DenseError> {
+    fn values(&self, name: &'static str, plane: &[f32]) -> Result<(), KernelError> {
         // Mean squared errors are filtered too: squares of values.
         self.plane(name, plane, "a magnitude of at most 1e30", |v| v.abs() <= MAX_VARIANCE)
     }
@@ -129,25 +126,15 @@ impl Weighting {
         values: &[f32],
         allowed: &'static str,
         good: impl Fn(f32) -> bool + Sync,
-    ) -> Result<(), DenseError> {
-        let expected = self.width * self.height;
-        if values.len() != expected {
-            return Err(DenseError::PlaneLength { plane, expected, actual: values.len() });
-        }
-        match first_bad(values, good) {
-            None => Ok(()),
-            Some(i) => {
-                let (x, y) = (i % self.width, i / self.width);
-                Err(DenseError::Value { plane, x, y, value: values[i], allowed })
-            }
-        }
+    ) -> Result<(), KernelError> {
+        check::plane(|| plane.to_owned(), values, (self.width, self.height), allowed, good)
     }
 
     /// Checks a call of [`super::means`].
     ///
     /// # Errors
     /// The first parameter or plane that is out of range.
-    pub fn check_means(&self, channels: &[Alone<'_>]) -> Result<(), DenseError> {
+    pub fn check_means(&self, channels: &[Alone<'_>]) -> Result<(), KernelError> {
         self.check()?;
         count("channels", channels.len(), 0, MAX_CHANNELS)?;
         for channel in channels {
@@ -163,7 +150,7 @@ impl Fit {
     ///
     /// # Errors
     /// The first parameter or plane that is out of range.
-    pub fn check(&self, planes: &Planes<'_>) -> Result<(), DenseError> {
+    pub fn check(&self, planes: &Planes<'_>) -> Result<(), KernelError> {
         self.weighting.check()?;
         count("guide channels", planes.guide.len(), 1, MAX_CHANNELS)?;
         count("features", planes.features.len(), 0, MAX_FEATURES)?;
@@ -171,18 +158,4 @@ impl Fit {
         planes.features.iter().try_for_each(|feature| self.weighting.values("feature", feature))?;
         planes.image.iter().try_for_each(|image| self.weighting.values("image", image))
     }
-}
-
-fn count(parameter: &'static str, value: usize, least: usize, most: usize) -> Result<(), DenseError> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(DenseError::Count { parameter, value, least, most })
-}
-
-fn real(parameter: &'static str, value: f32, least: f32, most: f32) -> Result<(), DenseError> {
-    if (least..=most).contains(&value) {
-        return Ok(());
-    }
-    Err(DenseError::Real { parameter, value, least, most })
 }

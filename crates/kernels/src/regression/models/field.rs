@@ -1,7 +1,9 @@
 //! Images that models are made from.
 
 use super::size::{LANES, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS};
-use crate::engine::{first_bad, mirror};
+use crate::KernelError;
+use crate::check::{self, count, real};
+use crate::engine::mirror;
 
 /// Planes of one value per pixel.
 #[derive(Clone, Debug)]
@@ -35,38 +37,8 @@ pub struct Rules {
     pub ridge: f64,
 }
 
-/// What cannot be modelled.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum FieldError {
-    /// A number is out of range.
-    #[error("{name} = {value}: allowed {allowed}")]
-    Number {
-        /// What it is.
-        name: &'static str,
-        /// Value handed in.
-        value: f64,
-        /// Allowed values.
-        allowed: &'static str,
-    },
-    /// A plane does not hold exactly one value per pixel.
-    #[error("a plane holds {actual} values, the image has {expected} pixels")]
-    PlaneLength {
-        /// Number of pixels.
-        expected: usize,
-        /// Length of the slice handed in.
-        actual: usize,
-    },
-    /// A value that is no number, too large, or a negative variance.
-    #[error("value {value} at pixel {pixel}: values are at most 1e15 in magnitude, variances from 0 to 1e30")]
-    Value {
-        /// Value handed in.
-        value: f32,
-        /// Index of the pixel.
-        pixel: usize,
-    },
-}
-
+/// Most pixels that an image may have: records are numbered in 32 bits.
+const MAX_PIXELS: usize = 1 << 31;
 /// Largest magnitude of a value.
 const MOST: f32 = 1e15;
 
@@ -97,7 +69,7 @@ impl Field {
     ///
     /// # Errors
     /// The first thing that is wrong.
-    pub fn new(width: usize, height: usize, planes: &Planes<'_>, rules: Rules) -> Result<Self, FieldError> {
+    pub fn new(width: usize, height: usize, planes: &Planes<'_>, rules: Rules) -> Result<Self, KernelError> {
         rules.check()?;
         check_planes(width, height, planes)?;
         let features = planes.features.len();
@@ -162,48 +134,36 @@ impl Field {
 }
 
 impl Rules {
-    fn check(&self) -> Result<(), FieldError> {
-        let number = |name, value: f64, good: bool, allowed| {
-            if good { Ok(()) } else { Err(FieldError::Number { name, value, allowed }) }
-        };
-        let patch = self.patch_radius;
-        number("patch radius", patch as f64, patch <= MAX_PATCH_RADIUS, "0 to 3")?;
-        let in_range = |v: f32| v > 1e-6 && v < 1e6;
-        number("range sigma", self.range_sigma.into(), in_range(self.range_sigma), "1e-6 to 1e6")?;
-        let count = self.bandwidths.len();
-        number("bandwidths", count as f64, (1..=MAX_BANDWIDTHS).contains(&count), "1 to 8 of them")?;
-        for (i, k) in self.bandwidths.iter().enumerate() {
-            let good = in_range(*k) && (i == 0 || self.bandwidths[i - 1] <= *k);
-            number("bandwidth", (*k).into(), good, "1e-6 to 1e6, ascending")?;
+    fn check(&self) -> Result<(), KernelError> {
+        count("patch radius", self.patch_radius, 0, MAX_PATCH_RADIUS)?;
+        real("range sigma", self.range_sigma, 1e-6, 1e6)?;
+        count("bandwidths", self.bandwidths.len(), 1, MAX_BANDWIDTHS)?;
+        self.bandwidths.iter().try_for_each(|k| real("bandwidth", *k, 1e-6, 1e6))?;
+        if !self.bandwidths.is_sorted() {
+            return Err(KernelError::Mismatch { what: "bandwidths do not ascend".into() });
         }
-        let least = self.least_weight;
-        number("least weight", least.into(), (0.0..=0.5).contains(&least), "0 to 0.5")?;
-        number("ridge", self.ridge, (0.0..=1e6).contains(&self.ridge), "0 to 1e6")
+        real("least weight", self.least_weight, 0.0, 0.5)?;
+        real("ridge", self.ridge as f32, 0.0, 1e6)
     }
 }
 
-fn check_planes(width: usize, height: usize, planes: &Planes<'_>) -> Result<(), FieldError> {
-    let side = |name, value: usize| match value {
-        0 => Err(FieldError::Number { name, value: 0.0, allowed: "1 or more" }),
-        _ => Ok(()),
+fn check_planes(width: usize, height: usize, planes: &Planes<'_>) -> Result<(), KernelError> {
+    check::size(width, height, MAX_PIXELS)?;
+    count("features", planes.features.len(), 0, MAX_FEATURES)?;
+    let value = |name: &str, i: usize, plane: &[f32]| {
+        let name = || format!("{name} {i}");
+        check::plane(name, plane, (width, height), "a magnitude of at most 1e15", |v| v.abs() <= MOST)
     };
-    side("width", width)?;
-    side("height", height)?;
-    if planes.features.len() > MAX_FEATURES {
-        let value = planes.features.len() as f64;
-        return Err(FieldError::Number { name: "features", value, allowed: "0 to 7" });
+    let square = |name: &str, plane: &[f32]| {
+        let good = |v: f32| (0.0..=MOST * MOST).contains(&v);
+        check::plane(|| name.to_owned(), plane, (width, height), "0 to 1e30", good)
+    };
+    for c in 0..3 {
+        value("guide channel", c, planes.guide[c])?;
+        value("target channel", c, planes.target[c])?;
+        square("variance of the guide", planes.guide_variance[c])?;
     }
-    let values = planes.guide.iter().chain(&planes.target).chain(&planes.features);
-    let values = values.map(|plane| (*plane, -MOST, MOST));
-    let squares = planes.guide_variance.iter().chain([&planes.variance, &planes.importance]);
-    let squares = squares.map(|plane| (*plane, 0.0, MOST * MOST));
-    for (plane, least, most) in values.chain(squares) {
-        if plane.len() != width * height {
-            return Err(FieldError::PlaneLength { expected: width * height, actual: plane.len() });
-        }
-        if let Some(pixel) = first_bad(plane, |v| (least..=most).contains(&v)) {
-            return Err(FieldError::Value { value: plane[pixel], pixel });
-        }
-    }
-    Ok(())
+    square("variance", planes.variance)?;
+    square("importance", planes.importance)?;
+    planes.features.iter().enumerate().try_for_each(|(i, feature)| value("feature", i, feature))
 }

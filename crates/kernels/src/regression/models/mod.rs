@@ -29,7 +29,7 @@ mod steps;
 mod window;
 
 pub use distances::{Area, Distances};
-pub use field::{Field, FieldError, Planes, Rules};
+pub use field::{Field, Planes, Rules};
 pub use size::{COLUMNS, MAX_BANDWIDTHS, MAX_FEATURES, MAX_PATCH_RADIUS, MAX_RADIUS};
 pub use steps::Start;
 pub use window::Window;

@@ -1,7 +1,7 @@
 //! Tests of the guided filter.
 
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::guided::{GuidedError, GuidedParams, filter, filter_at, naive};
+use noisefloor_kernels::guided::{GuidedParams, filter, filter_at, naive};
 
 use crate::flash_filter::Random;
 
@@ -135,18 +135,15 @@ fn what_is_out_of_range_is_refused() {
     let plane = [0.0f32; 6];
     let good = GuidedParams { width: 3, height: 2, radius: 1, epsilon: 0.0 };
     let refuse = |params: GuidedParams, guide: &[&[f32]]| filter(&params, guide, &[&plane]).unwrap_err();
-    assert_eq!(
-        refuse(GuidedParams { width: 0, ..good }, &[&plane]),
-        GuidedError::ImageSize { width: 0, height: 2 }
-    );
-    assert_eq!(
-        refuse(GuidedParams { radius: 5000, ..good }, &[&plane]),
-        GuidedError::Radius { radius: 5000 }
-    );
-    assert_eq!(
-        refuse(GuidedParams { epsilon: -1.0, ..good }, &[&plane]),
-        GuidedError::Epsilon { epsilon: -1.0 }
-    );
-    assert_eq!(refuse(good, &[]), GuidedError::GuideChannels { channels: 0 });
-    assert_eq!(refuse(good, &[&plane[1..]]), GuidedError::PlaneLength { expected: 6, actual: 5 });
+    for (params, guide, words) in [
+        (GuidedParams { width: 0, ..good }, &[plane.as_slice()][..], "image of 0x2 pixels"),
+        (GuidedParams { radius: 5000, ..good }, &[&plane], "radius = 5000: allowed 0 to 4096"),
+        (GuidedParams { epsilon: -1.0, ..good }, &[&plane], "epsilon = -1"),
+        (GuidedParams { epsilon: f64::NAN, ..good }, &[&plane], "epsilon = NaN"),
+        (good, &[], "guide channels = 0: allowed 1 to 8"),
+        (good, &[&plane[1..]], "`guide channel 0` holds 5 values"),
+    ] {
+        let told = refuse(params, guide).to_string();
+        assert!(told.contains(words), "{told}");
+    }
 }

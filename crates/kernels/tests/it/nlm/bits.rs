@@ -113,6 +113,6 @@ fn a_level_that_is_missing_is_refused() {
     for level in InstructionSet::ALL.into_iter().filter(|level| !level.is_available()) {
         let case = Case::random(3, 3, 1, &[pass(None, 1.0)], &[]);
         let error = filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap_err();
-        assert_eq!(error, NlmError::LevelUnavailable { level });
+        assert_eq!(error, noisefloor_kernels::KernelError::LevelUnavailable { level });
     }
 }

@@ -1,11 +1,11 @@
-//! What can be wrong with a call.
+//! What can be wrong with a call of a kernel.
 
 use crate::InstructionSet;
 
-/// A parameter or input plane that the kernels refuse. Found before any work is done.
+/// A parameter or input plane that a kernel refuses. Found before any work is done.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum DenseError {
+pub enum KernelError {
     /// The image has no pixel, or more than fit in memory.
     #[error("image of {width}x{height} pixels: both sides must be at least 1 and the area at most {max}")]
     ImageSize {
@@ -20,7 +20,7 @@ pub enum DenseError {
     #[error("plane `{plane}` holds {actual} values, the image has {expected} pixels")]
     PlaneLength {
         /// Name of the plane.
-        plane: &'static str,
+        plane: String,
         /// Number of pixels.
         expected: usize,
         /// Length of the slice handed in.
@@ -54,7 +54,7 @@ pub enum DenseError {
     #[error("plane `{plane}` holds {value} at pixel ({x}, {y}): allowed is {allowed}")]
     Value {
         /// Name of the plane.
-        plane: &'static str,
+        plane: String,
         /// Column.
         x: usize,
         /// Row.
@@ -63,6 +63,12 @@ pub enum DenseError {
         value: f32,
         /// Allowed range, in words.
         allowed: &'static str,
+    },
+    /// Inputs that do not go together.
+    #[error("{what}")]
+    Mismatch {
+        /// What is missing, or differs from what.
+        what: String,
     },
     /// The processor lacks the instruction set asked for.
     #[error("instruction set `{level}` is not available on this machine")]
