@@ -1,10 +1,10 @@
 //! Scenes that are rendered here.
 
 mod adaptive;
+mod identity;
 mod progress;
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write as _;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
@@ -22,12 +22,13 @@ use crate::row::Row;
 use crate::source::frame::{FrameKind, FrameSpec, frame_seed, frame_specs};
 use crate::source::opened::Opened;
 use crate::source::probe::{PROBE, PROBE_SPP};
+use identity::{classes_of_probe, content_hash, frame_identity};
 use noisefloor_questions::PixelClasses;
+use noisefloor_study::hash_of_frame;
 use noisefloor_study::plan::ReferenceRange;
 use noisefloor_study::{
     AdaptiveFrames, Maps, Place, ReferenceSpec, SceneSource, SceneSpec, Shot, Study, StudyError,
 };
-use noisefloor_study::{Bits, hash_of_frame};
 use noisefloor_study::{Key, key_of, seed_of};
 use progress::{advance, stopped};
 
@@ -242,49 +243,6 @@ pub(super) fn open(
         study_seed: study.seed,
     };
     Ok((opened, rendered))
-}
-
-/// Everything that determines a frame.
-fn frame_identity(
-    look: &Value,
-    record: &BTreeMap<Quantity, Keep>,
-    statistics: &[Statistic],
-    spp: u32,
-    seed: u64,
-) -> Value {
-    let mut all = json!({
-        "look": look, "spp": spp, "seed": seed,
-        "record": record.iter().map(|(q, k)| (q.name(), k)).collect::<BTreeMap<_, _>>(),
-    });
-    // Frames without any have the keys that they always had.
-    if !statistics.is_empty() {
-        let names: BTreeSet<String> = statistics.iter().map(ToString::to_string).collect();
-        all["statistics"] = json!(names);
-    }
-    all
-}
-
-/// Hash of which pixels of a tiny image are of the scene's own classes.
-fn classes_of_probe(prepared: &Prepared) -> Result<Key, HarnessError> {
-    let mut bits = Bits::of("classes");
-    for class in noisefloor_render::pixel_classes(prepared, PROBE[0], PROBE[1])?.classes {
-        bits.text(class.name());
-    }
-    Ok(bits.finish())
-}
-
-/// Hash of a scene's description: plain data without random state, so its printed form tells it completely.
-fn content_hash(scene: &noisefloor_scenes::Scene) -> String {
-    struct Sink(blake3::Hasher);
-    impl std::fmt::Write for Sink {
-        fn write_str(&mut self, text: &str) -> std::fmt::Result {
-            self.0.update(text.as_bytes());
-            Ok(())
-        }
-    }
-    let mut sink = Sink(blake3::Hasher::new());
-    write!(sink, "{scene:?}").expect("hashing cannot fail");
-    sink.0.finalize().to_hex()[..32].to_owned()
 }
 
 impl Rendered {
