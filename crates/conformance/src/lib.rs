@@ -27,7 +27,9 @@
 mod case;
 pub mod change;
 mod citations;
+pub mod known;
 mod outcome;
+pub mod outputs;
 mod recipe;
 mod recipes;
 mod report;

@@ -1,26 +1,17 @@
+use noisefloor_conformance::change::{exposed, set_variance};
+use noisefloor_conformance::known::{Normals, estimate, exact, frame};
+use noisefloor_conformance::outputs::{self, largest_difference, light, squared_error};
 use noisefloor_conformance::{Tolerance, assert_conforms};
-use noisefloor_denoiser::{Denoiser, Diagnostics, Input, Output, StageTimer};
-use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
+use noisefloor_denoiser::{Output, StageTimer};
+use noisefloor_frame::{Estimate, Frame, Image, Variance};
 use noisefloor_kernels::regression::dense::{Channel, Fit, Join, Planes, Solver, Weighting, naive};
-use noisefloor_stats::random::Normals;
 
-use super::candidates::{Color, filter_maps, squared_error};
+use super::candidates::{self, Color, filter_maps};
 use super::features::{Noisy, prefilter};
 use super::kernel::{Guided, Sizes, regress};
 use super::params::{Exposure, Params, Profile};
 use super::settings::Settings;
 use super::{Nfor, algorithm};
-
-/// Halves of normal noise around a truth; their mean has the standard deviation `sd` and says so.
-fn estimate(truth: &Image, sd: f32, normals: &mut Normals) -> Estimate {
-    let mut half = || truth.map(|v| v + sd * std::f32::consts::SQRT_2 * normals.next() as f32);
-    let halves = [half(), half()];
-    Estimate {
-        mean: super::half::mean(&halves[0], &halves[1]),
-        variance: Some(Variance::of_mean(truth.map(|_| sd * sd))),
-        halves: Some(halves),
-    }
-}
 
 /// A texture on a ramp, and a step.
 fn truth(width: usize, height: usize) -> Image {
@@ -30,21 +21,8 @@ fn truth(width: usize, height: usize) -> Image {
     })
 }
 
-/// Noisy samples with the texture as albedo, a flat normal and a slanted depth.
-fn frame(truth: &Image, sd: f32, seed: u64) -> Frame {
-    let mut normals = Normals::new(seed);
-    let color = estimate(truth, sd, &mut normals);
-    let mut frame = Frame::from_color(color, Samples::uniform(16), Sampling::Independent);
-    let (w, h) = (truth.width(), truth.height());
-    let mut add = |id, truth: &Image, sd| frame.features.insert(id, estimate(truth, sd, &mut normals));
-    add(FeatureId::Albedo, truth, 0.01);
-    add(FeatureId::Normal, &Image::from_fn(w, h, 3, |c, _, _| f32::from(c == 2)), 0.0);
-    add(FeatureId::Depth, &Image::from_fn(w, h, 1, |_, x, _| 5.0 + 0.1 * x as f32), 0.01);
-    frame
-}
-
 fn run(params: Params, frame: &Frame) -> Output {
-    Nfor::new(params).unwrap().denoise(&Input::new(frame)).unwrap()
+    outputs::run(&Nfor::new(params).unwrap(), frame)
 }
 
 fn of(profile: Profile) -> Params {
@@ -52,11 +30,6 @@ fn of(profile: Profile) -> Params {
 }
 
 const PROFILES: [Profile; 3] = [Profile::Program, Profile::Paper, Profile::Best];
-
-fn farthest(a: &Image, b: &Image) -> f32 {
-    assert!(a.same_shape(b));
-    a.data().iter().zip(b.data()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
-}
 
 #[test]
 fn it_conforms() {
@@ -69,9 +42,9 @@ fn it_conforms() {
 fn a_constant_stays_in_every_profile() {
     for profile in PROFILES {
         let mut frame = frame(&Image::filled(23, 19, 3, 0.3), 0.0, 1);
-        frame.color.variance = Some(Variance::of_mean(Image::filled(23, 19, 3, 0.01)));
+        set_variance(&mut frame.color, |_| 0.01);
         let out = run(of(profile), &frame).image;
-        assert!(farthest(&out, &frame.color.mean) < 1e-6, "{profile:?}");
+        assert!(largest_difference(&out, &frame.color.mean) < 1e-6, "{profile:?}");
     }
 }
 
@@ -82,27 +55,18 @@ fn clean_colours_that_are_far_apart_stay() {
         let order = (x + 25 * y) * [1, 7, 11][c] % 500;
         0.11 * order as f32
     });
-    let color = Estimate {
-        mean: image.clone(),
-        variance: Some(Variance::of_mean(image.map(|_| 0.0))),
-        halves: Some([image.clone(), image.clone()]),
-    };
-    let frame = Frame { color, ..frame(&truth(25, 20), 0.1, 2) };
+    let frame = Frame { color: exact(&image).color, ..frame(&truth(25, 20), 0.1, 2) };
     // Δ² is cut at 1e4: of 49 taps each, weights e^-1e4.
-    assert!(farthest(&run(Params::default(), &frame).image, &image) <= 1e-5);
+    assert!(largest_difference(&run(Params::default(), &frame).image, &image) <= 1e-5);
 }
 
 #[test]
 fn without_features_planes_come_out_as_they_are() {
     let plane = Image::from_fn(31, 24, 3, |c, x, y| 0.2 + 0.02 * x as f32 - 0.01 * (c as f32) * y as f32);
-    let color = Estimate {
-        mean: plane.clone(),
-        variance: Some(Variance::of_mean(plane.map(|_| 0.05))),
-        halves: Some([plane.clone(), plane.clone()]),
-    };
-    let frame = Frame::from_color(color, Samples::uniform(16), Sampling::Independent);
+    let mut frame = exact(&plane);
+    set_variance(&mut frame.color, |_| 0.05);
     for profile in [Profile::Program, Profile::Best] {
-        let far = farthest(&run(of(profile), &frame).image, &plane);
+        let far = largest_difference(&run(of(profile), &frame).image, &plane);
         assert!(far < 2e-6, "{profile:?}: {far}");
     }
 }
@@ -122,12 +86,9 @@ fn the_error_estimate_of_a_fixed_filter_is_right_on_average() {
             let guide = Guided { image: &truth, variance: &flat };
             let filtered = halves.each_ref().map(|half| regress(half, guide, &[], &sizes, &settings).unwrap());
             let color = Color { mean: &mean, halves: &halves, variance: &flat, epsilon: 1e-7 };
-            let estimated = squared_error(&color, &filtered);
+            let estimated = candidates::squared_error(&color, &filtered);
             let output = super::half::mean(&filtered[0], &filtered[1]);
-            let squares = output.data().iter().zip(truth.data()).map(|(a, b)| f64::from(a - b).powi(2));
-            let values = estimated.data().len() as f64;
-            let mean = estimated.data().iter().copied().map(f64::from).sum::<f64>() / values;
-            mean - squares.sum::<f64>() / values
+            light(&estimated) / estimated.data().len() as f64 - squared_error(&output, &truth)
         })
         .collect();
     let tolerance = Tolerance::of_mean(0.0, &differences).with_z(3.0);
@@ -186,10 +147,10 @@ fn the_last_regression_doubles_variances_and_equals_the_loops() {
         let out = naive::regress(&fit, &planes).unwrap().concat();
         Image::from_vec(24, 17, 3, out.into_iter().map(|v| v as f32).collect()).unwrap()
     };
-    let far = farthest(&done.image, &oracle(1.0));
+    let far = largest_difference(&done.image, &oracle(1.0));
     assert!(far < 1e-5, "{far}");
     // With the variances as they are it is another image.
-    assert!(farthest(&done.image, &oracle(0.5)) > 1e-3);
+    assert!(largest_difference(&done.image, &oracle(0.5)) > 1e-3);
 }
 
 #[test]
@@ -235,18 +196,16 @@ fn a_frame_with_a_variance_that_is_no_number_is_filtered() {
 fn it_removes_noise_keeps_the_light_and_knows_its_error() {
     let truth = truth(64, 48);
     let frame = frame(&truth, 0.2, 9);
-    let square = |a: &Image, b: &Image| {
-        a.data().iter().zip(b.data()).map(|(a, b)| f64::from(a - b).powi(2)).sum::<f64>()
-    };
     for profile in PROFILES {
         let out = run(of(profile), &frame);
-        let (before, after) = (square(&frame.color.mean, &truth), square(&out.image, &truth));
+        let (before, after) = (squared_error(&frame.color.mean, &truth), squared_error(&out.image, &truth));
         assert!(after < 0.1 * before, "{profile:?}: {after} of {before}");
-        let light = |image: &Image| image.data().iter().copied().map(f64::from).sum::<f64>();
         assert!((light(&out.image) / light(&frame.color.mean) - 1.0).abs() < 2e-3, "{profile:?}");
         let (name, image) = out.estimate_of.unwrap();
         assert_eq!(name, "before the last regression");
-        let (estimated, actual) = (light(&out.error_estimate.unwrap()), square(&image, &truth));
+        let values = image.data().len() as f64;
+        let (estimated, actual) =
+            (light(&out.error_estimate.unwrap()), values * squared_error(&image, &truth));
         // Each of the 9216 values is off by about 2V = 0.08, in all 7.7: four times that.
         assert!((estimated - actual).abs() < 31.0, "{profile:?}: {estimated} of {actual}");
     }
@@ -255,20 +214,19 @@ fn it_removes_noise_keeps_the_light_and_knows_its_error() {
 #[test]
 fn a_common_exposure_makes_results_follow_it() {
     let bright = frame(&truth(33, 20), 0.1, 10);
-    let dark = noisefloor_conformance::change::exposed(&bright, 1.0 / 1024.0);
+    let dark = exposed(&bright, 1.0 / 1024.0);
     let params = Params { exposure: Some(Exposure::Common), ..Params::default() };
     let [a, b] = [&bright, &dark].map(|frame| run(params.clone(), frame).image);
     assert_eq!(a.map(|v| v / 1024.0), b);
     // Else ε, beside variances of 1e-8, keeps noise apart.
     let [a, b] = [&bright, &dark].map(|frame| run(Params::default(), frame).image);
-    assert!(farthest(&a, &b.map(|v| v * 1024.0)) > 1e-3);
+    assert!(largest_difference(&a, &b.map(|v| v * 1024.0)) > 1e-3);
 }
 
 #[test]
 fn diagnostics_show_the_choice_and_the_features() {
     let frame = frame(&truth(20, 20), 0.1, 11);
-    let input = Input { diagnostics: Diagnostics::On { probe: None }, ..Input::new(&frame) };
-    let out = Nfor::default().denoise(&input).unwrap();
+    let out = outputs::diagnose(&Nfor::default(), &frame);
     let names: Vec<&str> = out.diagnostics.iter().map(|d| d.name.as_str()).collect();
     assert_eq!(names[0], "share of the wider candidate");
     assert_eq!(names.len(), 6);

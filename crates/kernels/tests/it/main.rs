@@ -8,4 +8,6 @@ mod joint_nlm;
 mod mirror;
 mod models;
 mod nlm;
+mod random;
+mod same_bits;
 mod tiles;

@@ -1,77 +1,6 @@
-//! Frames with known truth.
+//! The method and its candidates in every profile.
 
-use noisefloor_denoiser::{Denoiser, Diagnostics, Input, Output};
-use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
 use noisefloor_rdfc::{Choice, Params, Profile, Rdfc};
-
-/// Standard normal numbers by SplitMix64 and Box–Muller.
-pub struct Normals {
-    state: u64,
-    spare: Option<f64>,
-}
-
-impl Normals {
-    pub fn new(seed: u64) -> Self {
-        Self { state: seed, spare: None }
-    }
-
-    pub fn uniform(&mut self) -> f64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn next(&mut self) -> f64 {
-        if let Some(spare) = self.spare.take() {
-            return spare;
-        }
-        let (u, v) = (1.0 - self.uniform(), self.uniform());
-        let (r, angle) = ((-2.0 * u.ln()).sqrt(), std::f64::consts::TAU * v);
-        self.spare = Some(r * angle.sin());
-        r * angle.cos()
-    }
-}
-
-/// Halves of normal noise around `truth`; their mean has the standard deviation `sd` and says so.
-pub fn estimate(truth: &Image, sd: f32, normals: &mut Normals) -> Estimate {
-    let mut half = || truth.map(|v| v + sd * std::f32::consts::SQRT_2 * normals.next() as f32);
-    let halves = [half(), half()];
-    Estimate {
-        mean: halves[0].zip_map(&halves[1], |a, b| 0.5 * (a + b)),
-        variance: Some(Variance::of_mean(truth.map(|_| sd * sd))),
-        halves: Some(halves),
-    }
-}
-
-/// A smooth ramp of three channels in [0.2, 0.8].
-pub fn ramp(width: usize, height: usize) -> Image {
-    Image::from_fn(width, height, 3, |c, x, y| {
-        0.2 + 0.5 * x as f32 / width as f32 + 0.05 * (y as f32 / height as f32) + 0.02 * c as f32
-    })
-}
-
-/// Two halves, dark and bright, with a texture that a feature shows too.
-pub fn step(width: usize, height: usize) -> Image {
-    Image::from_fn(width, height, 3, |c, x, y| {
-        let side = if 2 * x < width { 0.2 } else { 0.6 };
-        side + 0.1 * ((x / 4 + y / 4 + c) % 2) as f32
-    })
-}
-
-/// Independent samples of `truth` with features: the truth itself as texture, a flat normal, a slanted depth.
-pub fn frame(truth: &Image, sd: f32, seed: u64) -> Frame {
-    let mut normals = Normals::new(seed);
-    let color = estimate(truth, sd, &mut normals);
-    let mut frame = Frame::from_color(color, Samples::uniform(16), Sampling::Independent);
-    let (w, h) = (truth.width(), truth.height());
-    let mut add = |id, truth: &Image, sd| frame.features.insert(id, estimate(truth, sd, &mut normals));
-    add(FeatureId::Albedo, truth, 0.01);
-    add(FeatureId::Normal, &Image::from_fn(w, h, 3, |c, _, _| f32::from(c == 2)), 0.0);
-    add(FeatureId::Depth, &Image::from_fn(w, h, 1, |_, x, _| 5.0 + 0.01 * x as f32), 0.001);
-    frame
-}
 
 pub fn of(profile: Profile) -> Params {
     Params { profile, ..Params::default() }
@@ -82,43 +11,8 @@ pub fn profiles() -> [Params; 3] {
     [Profile::Paper, Profile::Authors, Profile::Best].map(of)
 }
 
-/// The frame at `exposure` times its own.
-pub fn exposed(frame: &Frame, exposure: f64) -> Frame {
-    let most = f64::from(f32::MAX);
-    // Beyond the type's range, as a renderer would write it.
-    let times = |image: &Image, by: f64| image.map(|v| (f64::from(v) * by).clamp(-most, most) as f32);
-    let mut out = frame.clone();
-    out.color.mean = times(&frame.color.mean, exposure);
-    out.color.halves = frame.color.halves.as_ref().map(|h| h.each_ref().map(|half| times(half, exposure)));
-    let variance = frame.color.variance.as_ref().map(Variance::mean_variance);
-    out.color.variance = variance.map(|v| Variance::of_mean(times(v, exposure * exposure)));
-    out
-}
-
 /// The whole method and its candidates.
 pub fn methods(params: &Params) -> Vec<Rdfc> {
     let candidates = Choice::ALL.map(|choice| Rdfc::candidate(choice, params.clone()).unwrap());
     std::iter::once(Rdfc::new(params.clone()).unwrap()).chain(candidates).collect()
-}
-
-pub fn run(method: &Rdfc, frame: &Frame) -> Output {
-    method.denoise(&Input::new(frame)).unwrap_or_else(|e| panic!("{e}"))
-}
-
-pub fn diagnose(method: &Rdfc, frame: &Frame) -> Output {
-    let input = Input::new(frame).with_diagnostics(Diagnostics::On { probe: None });
-    method.denoise(&input).unwrap_or_else(|e| panic!("{e}"))
-}
-
-pub fn diagnostic<'a>(output: &'a Output, name: &str) -> &'a Image {
-    &output.diagnostics.iter().find(|d| d.name == name).unwrap_or_else(|| panic!("no `{name}`")).image
-}
-
-pub fn largest_difference(a: &Image, b: &Image) -> f32 {
-    a.data().iter().zip(b.data()).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
-}
-
-pub fn squared_error(image: &Image, truth: &Image) -> f64 {
-    let square = |(a, b): (&f32, &f32)| (f64::from(*a) - f64::from(*b)).powi(2);
-    image.data().iter().zip(truth.data()).map(square).sum::<f64>() / image.data().len() as f64
 }

@@ -1,16 +1,16 @@
 //! Limiting cases.
 
+use noisefloor_conformance::known::{self, frame, ramp, step};
+use noisefloor_conformance::outputs::{diagnose, diagnostic, largest_difference, run};
 use noisefloor_denoiser::{Denoiser, Input};
-use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling, Variance};
+use noisefloor_frame::{FeatureId, Frame, Image, Sampling};
 use noisefloor_rdfc::{Choice, Gradient, Params, Rdfc};
 
-use crate::common::{diagnose, diagnostic, frame, largest_difference, methods, profiles, ramp, run, step};
+use crate::common::{methods, profiles};
 
-/// A frame without any noise.
+/// A frame without any noise, whose sample variance is scaled to that of its halves: 0 to 0.
 fn exact(truth: &Image) -> Frame {
-    let variance = Some(Variance::of_mean(truth.map(|_| 0.0)));
-    let color = Estimate { mean: truth.clone(), variance, halves: Some([truth.clone(), truth.clone()]) };
-    Frame::from_color(color, Samples::uniform(16), Sampling::LowDiscrepancy)
+    Frame { sampling: Sampling::LowDiscrepancy, ..known::exact(truth) }
 }
 
 #[test]

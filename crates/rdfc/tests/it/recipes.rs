@@ -1,10 +1,12 @@
 //! Frames on which a choice of the method decides.
 
+use noisefloor_conformance::known::{Normals, estimate, frame};
+use noisefloor_conformance::outputs::{light, run, squared_error};
 use noisefloor_denoiser::Denoiser;
 use noisefloor_frame::{FeatureId, Frame, Image, Samples, Sampling, Variance};
 use noisefloor_rdfc::{Params, Profile, Rdfc};
 
-use crate::common::{Normals, estimate, frame, of, profiles, run, squared_error};
+use crate::common::{of, profiles};
 
 const W: usize = 48;
 const H: usize = 36;
@@ -67,10 +69,6 @@ fn spotted(bright: Option<f32>) -> (Image, Frame) {
     put(&mut stated, variance);
     noisy.color.variance = Some(Variance::of_mean(stated));
     (truth, noisy)
-}
-
-fn light(image: &Image) -> f64 {
-    image.data().iter().copied().map(f64::from).sum()
 }
 
 /// Pixels that the bright one changes by more than half of what they are without it, and the light of the image over

@@ -1,5 +1,7 @@
 //! What must change nothing, or does what it says.
 
+use noisefloor_conformance::known::{Normals, estimate, frame, ramp, step};
+use noisefloor_conformance::outputs::{largest_difference, run, squared_error};
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_frame::{Estimate, FeatureId, Frame, Image, Samples, Sampling};
 use noisefloor_rdfc::{
@@ -7,7 +9,7 @@ use noisefloor_rdfc::{
     Gradient, Params, PatchTaps, Profile, Rdfc, SecondPass, Ties, WindowBorder,
 };
 
-use crate::common::{Normals, estimate, frame, methods, of, profiles, ramp, run, step};
+use crate::common::{methods, of, profiles};
 
 #[test]
 fn the_order_of_features_and_those_that_are_missing_change_nothing() {
@@ -130,8 +132,7 @@ fn without_a_second_pass_the_output_is_what_one_would_have_started_from() {
             let output = run(&with(pass), &noisy);
             let (_, first) = output.estimate_of.expect("an estimate of another image than the output");
             // Halves are filtered for the pass, the mean without it: the same sums in another order.
-            let largest =
-                off.image.data().iter().zip(first.data()).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+            let largest = largest_difference(&off.image, &first);
             assert!(largest < 1e-5, "{profile:?}: {largest}");
             assert_ne!(output.image, first);
         }
@@ -244,7 +245,7 @@ fn results_stay_what_they_are() {
         (of(Profile::Authors), [1.201_910_8e-4, 3.833_142_8e-4, 4.036_139_9e-4, 1.252_493_3e-4]),
     ];
     for (params, known) in known {
-        let error = |method| crate::common::squared_error(&run(method, &noisy).image, &truth);
+        let error = |method: &Rdfc| squared_error(&run(method, &noisy).image, &truth);
         let errors: Vec<f64> = methods(&params).iter().map(error).collect();
         for (error, known) in errors.iter().zip(known) {
             assert!((error / known - 1.0).abs() < 1e-4, "{errors:?}");

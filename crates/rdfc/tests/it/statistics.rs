@@ -1,8 +1,8 @@
 //! Averages over many draws, with tolerances from their own spread.
 
+use noisefloor_conformance::known::{Normals, estimate, frame, ramp, step};
+use noisefloor_conformance::outputs::{run, squared_error};
 use noisefloor_rdfc::{Choice, Params, Rdfc, Ties, select};
-
-use crate::common::{Normals, estimate, frame, ramp, run, squared_error, step};
 
 /// Mean and standard error.
 fn mean(values: &[f64]) -> (f64, f64) {

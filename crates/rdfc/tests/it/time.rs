@@ -1,10 +1,10 @@
 //! Frames beside the target.
 
+use noisefloor_conformance::known::{frame, step};
+use noisefloor_conformance::outputs::{run, squared_error};
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_frame::Image;
 use noisefloor_rdfc::{Params, Rdfc};
-
-use crate::common::{frame, run, squared_error, step};
 
 #[test]
 fn neighbouring_frames_of_a_still_scene_take_noise_away() {

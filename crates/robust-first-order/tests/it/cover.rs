@@ -1,10 +1,12 @@
 //! Every pixel is predicted by a model that looks like it.
 
+use noisefloor_conformance::known::{exact, frame, step};
+use noisefloor_conformance::outputs::{diagnostic, figure};
 use noisefloor_denoiser::Output;
 use noisefloor_frame::{FeatureId, Image};
 use noisefloor_robust_first_order::{Params, Tiling};
 
-use crate::common::{diagnose, diagnostic, figure, frame, step};
+use crate::common::diagnose;
 
 /// Pixels that no model covers, or one that gives them less than θ.
 fn uncovered(output: &Output, theta: f32) -> usize {
@@ -56,7 +58,7 @@ fn detail_gets_small_windows() {
     let mut noisy = frame(&Image::filled(62, 31, 3, 0.5), 0.02, 34);
     let chequered =
         Image::from_fn(62, 31, 3, |_, x, y| if x < 31 && (x / 4 + y / 4) % 2 == 0 { 1.0 } else { 0.0 });
-    noisy.features.insert(FeatureId::Albedo, crate::common::exact(&chequered).color);
+    noisy.features.insert(FeatureId::Albedo, exact(&chequered).color);
     let output = diagnose(&Params::default(), &noisy);
     let tiles = diagnostic(&output, "detailed tiles");
     assert_eq!([tiles.get(0, 5, 5), tiles.get(0, 40, 5)], [1.0, 0.0]);

@@ -1,11 +1,12 @@
 //! Hard cases and wrong parameters.
 
 use noisefloor_conformance::assert_conforms;
+use noisefloor_conformance::known::{frame, ramp};
 use noisefloor_denoiser::{DenoiseError, Denoiser, Input};
 use noisefloor_frame::{Image, Samples};
 use noisefloor_robust_first_order::{Assembled, Params, RobustFirstOrder, VarianceKind};
 
-use crate::common::{frame, ramp, run};
+use crate::common::run;
 
 #[test]
 fn it_conforms() {

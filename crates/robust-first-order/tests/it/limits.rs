@@ -1,9 +1,11 @@
 //! Limiting cases.
 
+use noisefloor_conformance::known::{Normals, estimate, exact, frame, step};
+use noisefloor_conformance::outputs::largest_difference;
 use noisefloor_frame::{FeatureId, Frame, Image};
 use noisefloor_robust_first_order::{Params, VarianceKind};
 
-use crate::common::{Normals, estimate, exact, frame, largest_difference, run, step};
+use crate::common::run;
 
 fn settings() -> [Params; 4] {
     let default = Params::default();

@@ -1,5 +1,8 @@
 //! What must change nothing, or does what it says.
 
+use noisefloor_conformance::change::{exposed, in_units};
+use noisefloor_conformance::known::{exact, frame, ramp, step};
+use noisefloor_conformance::outputs::{figure, largest_difference};
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_frame::{Estimate, FeatureId, Image};
 use noisefloor_robust_first_order::{
@@ -7,7 +10,7 @@ use noisefloor_robust_first_order::{
     VarianceKind,
 };
 
-use crate::common::{diagnose, exact, exposed, frame, largest_difference, ramp, run, step};
+use crate::common::{diagnose, run};
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
@@ -33,7 +36,7 @@ fn no_result_depends_on_the_exposure() {
         let before = run(&params, &plain);
         for k in [-40, -10, 1, 10, 40] {
             let factor = f64::from(k).exp2();
-            let after = run(&params, &exposed(&plain, factor));
+            let after = run(&params, &exposed(&plain, factor as f32));
             let back = |image: &Image, by: f64| image.map(|v| (f64::from(v) / by) as f32);
             assert_eq!(back(&after.image, factor), before.image, "2^{k}: bit for bit");
             let estimate = back(&after.error_estimate.unwrap(), factor * factor);
@@ -104,7 +107,7 @@ fn sums_as_written_and_divided_differ_on_a_noisy_ramp() {
     assert_ne!(written.image, divided.image);
     // Divided sums favour larger bandwidths.
     let share = |output: &noisefloor_denoiser::Output| {
-        let of = |k: &str| crate::common::figure(output, &format!("share of models with k = {k}"));
+        let of = |k: &str| figure(output, &format!("share of models with k = {k}"));
         of("3.5") + of("4")
     };
     assert!(share(&divided) > share(&written), "{} and {}", share(&divided), share(&written));
@@ -143,16 +146,7 @@ fn features_may_be_missing_constant_twice_the_same_or_in_other_units() {
     assert_eq!(run(&params, &without).image, plain);
     assert_ne!(run(&Params::default(), &without).image, before);
     // Depth in other units.
-    let mut scaled = noisy.clone();
-    let depth = scaled.features.get_mut(&FeatureId::Depth).unwrap();
-    let by = 2.0f32.powi(10);
-    let variance = depth.variance.take().unwrap().into_mean_variance().map(|v| v * by * by);
-    let halves = depth.halves.as_ref().map(|h| h.each_ref().map(|half| half.map(|v| v * by)));
-    *depth = Estimate {
-        mean: depth.mean.map(|v| v * by),
-        variance: Some(noisefloor_frame::Variance::of_mean(variance)),
-        halves,
-    };
+    let scaled = in_units(&noisy, 1024.0);
     assert!(largest_difference(&run(&Params::default(), &scaled).image, &before) < 1e-5);
     // None at all, and without variance or halves.
     for id in [FeatureId::Albedo, FeatureId::Depth] {

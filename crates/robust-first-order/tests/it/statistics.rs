@@ -1,13 +1,11 @@
 //! Noise of known law around a known truth.
 
+use noisefloor_conformance::known::{frame, ramp, step};
+use noisefloor_conformance::outputs::{light, squared_error};
 use noisefloor_frame::Image;
 use noisefloor_robust_first_order::{KSum, Params, VarianceKind};
 
-use crate::common::{frame, ramp, run, squared_error, step};
-
-fn light(image: &Image) -> f64 {
-    image.data().iter().copied().map(f64::from).sum()
-}
+use crate::common::run;
 
 #[test]
 fn the_error_falls_and_the_light_stays() {

@@ -2,25 +2,9 @@ mod bits;
 mod oracle;
 mod properties;
 
-use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::dense::*;
 
-/// Uniforms in [0, 1) by SplitMix64.
-struct Uniforms(u64);
-
-impl Uniforms {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn plane(&mut self, n: usize, mut value: impl FnMut(&mut Self) -> f32) -> Vec<f32> {
-        (0..n).map(|_| value(self)).collect()
-    }
-}
+use crate::random::Random;
 
 /// Planes of one call that own their values.
 #[derive(Clone, Debug)]
@@ -35,21 +19,21 @@ impl Case {
     /// Differences are of the size of the noise, but for a step in the middle; one in two hundred variances is zero, so that
     /// patches without such pairs remain.
     fn random(width: usize, height: usize, features: usize) -> Self {
-        let mut u = Uniforms((width * 1000 + height * 10 + features) as u64);
+        let mut u = Random((width * 1000 + height * 10 + features) as u64);
         let n = width * height;
-        let variance = |u: &mut Uniforms| if u.next() < 0.005 { 0.0 } else { 0.002 + 0.004 * u.next() };
+        let variance = |u: &mut Random| if u.uniform() < 0.005 { 0.0 } else { 0.002 + 0.004 * u.uniform() };
         let mut p = 0;
-        let mut value = |u: &mut Uniforms| {
+        let mut value = |u: &mut Random| {
             let side = if 2 * (p % width) < width { 0.2 } else { 0.35 };
             p += 1;
-            side + 0.3 * u.next()
+            side + 0.3 * u.uniform()
         };
         let weighting = Weighting { width, height, window: 9, patch: 3, k: 0.5, scale: 2.0, epsilon: 1e-7 };
         Self {
             fit: Fit { weighting, join: Join::Minimum, solver: Solver::Dropped, positions: true },
             guide: (0..3).map(|_| [u.plane(n, &mut value), u.plane(n, variance)]).collect(),
-            features: (0..features).map(|_| u.plane(n, Uniforms::next)).collect(),
-            image: [0, 1, 2].map(|_| u.plane(n, Uniforms::next)),
+            features: (0..features).map(|_| u.plane(n, Random::uniform)).collect(),
+            image: [0, 1, 2].map(|_| u.plane(n, Random::uniform)),
         }
     }
 

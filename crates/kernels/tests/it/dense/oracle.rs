@@ -103,8 +103,8 @@ fn rounding_of_a_constant_feature_is_not_fitted() {
     let mut case = Case::random(40, 12, 3);
     case.fit.solver = Solver::MinimalNorm;
     // Far away it says something: here it is noise in units of a thousandth of that.
-    let mut u = Uniforms(5);
-    case.features[2] = (0..480).map(|p| if p % 40 == 39 { 1.0 } else { 1e-8 * u.next() }).collect();
+    let mut u = Random(5);
+    case.features[2] = (0..480).map(|p| if p % 40 == 39 { 1.0 } else { 1e-8 * u.uniform() }).collect();
     let mut fewer = case.clone();
     fewer.features.truncate(2);
     let (with, without) = (case.regress(), fewer.regress());

@@ -1,6 +1,7 @@
 //! The same bits for every instruction set, tile size and number of threads.
 
-use super::{Case, RULES, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::same_bits::{assert_same_bits, levels, on_threads};
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::inside::flash_filter_in_tiles;
 
@@ -59,26 +60,14 @@ const SIZES: [(usize, usize); 10] =
 fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads() {
     for (width, height) in SIZES {
         let case = Case::random(width, height, 5, 2, Rule::Joint);
-        let run = |level, threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            bits(&pool.install(|| case.filter_at(level)))
-        };
-        let expected = run(InstructionSet::Portable, 1);
-        for level in levels() {
-            for threads in [1, 3] {
-                assert!(run(level, threads) == expected, "{width}x{height}, {level}, {threads} threads");
-            }
-        }
+        assert_same_bits(&format!("{width}x{height}"), levels(), |level| bits(&case.filter_at(level)));
     }
 }
 
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let case = Case::random(150, 70, 3, 2, Rule::PerChannel);
-    let run = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        bits(&pool.install(|| case.filter()))
-    };
+    let run = |threads| on_threads(threads, || bits(&case.filter()));
     let one = run(1);
     for threads in [2, 3, 7] {
         assert!(run(threads) == one, "{threads} threads");

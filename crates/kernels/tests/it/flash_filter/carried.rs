@@ -1,6 +1,7 @@
 //! Planes that are summed along: the double-precision loop, equal bits, limiting cases.
 
-use super::{Case, RULES, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::same_bits::{levels, on_threads};
 use noisefloor_kernels::flash_filter::{Carried, filter_carrying, naive};
 
 /// Rounding of sums of up to 81 terms below 1, relative to the largest value; see the tests against the oracle.
@@ -51,8 +52,7 @@ fn every_instruction_set_gives_the_same_bits_and_the_image_stays_what_it_is() {
 fn any_number_of_threads_gives_the_same_bits() {
     let case = Case::random(150, 70, 3, 2, Rule::PerChannel);
     let run = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| filter_carrying(&case.params, &case.inputs(), &case.carried(true)).unwrap())
+        on_threads(threads, || filter_carrying(&case.params, &case.inputs(), &case.carried(true)).unwrap())
     };
     let one = run(1);
     for threads in [2, 5] {

@@ -1,6 +1,7 @@
 //! Input at the edge of what is allowed, and beyond.
 
-use super::{Case, RULES, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::same_bits::levels;
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{
     FlashFilterError, FlashParams, Membership, PatchWeights, filter, filter_into, naive,

@@ -1,6 +1,8 @@
 //! Frames of an animation: windows and patches as cubes.
 
-use super::{Case, RULES, Random, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::random::Random;
+use crate::same_bits::{levels, on_threads};
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::flash_filter::{
     Carried, Filtered, FlashFilterError, FlashInputs, Neighbor, filter, filter_carrying, filter_into,
@@ -182,8 +184,7 @@ fn bits_are_those_of_every_instruction_set_tile_size_and_number_of_threads() {
             }
         }
         for threads in [1, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            assert!(pool.install(|| bits(&sequence.filter())) == usual, "{rule:?}, {threads} threads");
+            assert!(on_threads(threads, || bits(&sequence.filter())) == usual, "{rule:?}, {threads} threads");
         }
     }
 }

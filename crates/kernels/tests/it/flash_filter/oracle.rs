@@ -6,7 +6,8 @@
 //! in the window, which are below 1 here. Errors of single weights have either sign and average out: 1e-6 is above
 //! what a wrong rounding can do and far below what a wrong tap or offset would.
 
-use super::{Case, RULES, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::same_bits::levels;
 use noisefloor_kernels::flash_filter::naive;
 
 const TOLERANCE: f64 = 1e-6;

@@ -1,6 +1,8 @@
 //! What the method promises for any input.
 
-use super::{Case, RULES, Random, Rule, levels};
+use super::{Case, RULES, Rule};
+use crate::random::Random;
+use crate::same_bits::levels;
 
 #[test]
 fn constant_source_is_unchanged() {

@@ -1,6 +1,7 @@
 //! The membership test and the views of the sets.
 
-use super::{Case, RULES, Random, Rule};
+use super::{Case, RULES, Rule};
+use crate::random::Random;
 use noisefloor_kernels::flash_filter::{
     FlashFilterError, half_width, homogeneous_counts, homogeneous_window,
 };

@@ -4,10 +4,9 @@ mod oracle;
 mod properties;
 mod statistics;
 
-use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Field, Planes, Rules};
 
-use crate::flash_filter::Random;
+use crate::random::Random;
 
 /// A frame with an edge, a slope, features with noise, and noise.
 pub struct Case {
@@ -79,8 +78,4 @@ impl Case {
     pub fn field(&self) -> Field {
         Field::new(self.size.0, self.size.1, &self.planes(), self.rules.clone()).unwrap()
     }
-}
-
-pub fn levels() -> impl Iterator<Item = InstructionSet> {
-    InstructionSet::ALL.into_iter().filter(|level| level.is_available())
 }

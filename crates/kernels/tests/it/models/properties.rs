@@ -3,7 +3,8 @@
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Distances, Field, Planes, Rules, Start, Window, naive::Twin};
 
-use super::{Case, levels};
+use super::Case;
+use crate::same_bits::levels;
 
 const K: usize = 1;
 

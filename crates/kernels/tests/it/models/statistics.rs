@@ -4,7 +4,7 @@ use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Distances, Start, Window};
 
 use super::Case;
-use crate::flash_filter::Random;
+use crate::random::Random;
 
 /// Replicates; a variance from them has a relative standard deviation of √(2/1500) = 3.7 %.
 const REPLICATES: usize = 1500;

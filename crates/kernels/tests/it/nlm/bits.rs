@@ -1,6 +1,7 @@
 //! The same bits on every instruction set, with any tile and any number of threads.
 
 use super::*;
+use crate::same_bits::{assert_same_bits, levels, on_threads};
 
 fn cases() -> Vec<Case> {
     let both = Case::random(130, 37, 5, &candidates(true), &[3, 1]).with_step(Rule::Exact).with_neighbors(1);
@@ -36,14 +37,16 @@ fn bits(filtered: &[Filtered]) -> Vec<u32> {
     filtered.iter().flat_map(planes).map(f32::to_bits).collect()
 }
 
+fn bits_at(case: &Case, level: InstructionSet) -> Vec<u32> {
+    bits(&filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap())
+}
+
 #[test]
 fn every_instruction_set_gives_the_same_bits() {
     for case in cases() {
-        let expected =
-            bits(&filter_at(&case.params, &case.passes, &case.inputs(), InstructionSet::Portable).unwrap());
-        for level in InstructionSet::ALL.into_iter().filter(|level| level.is_available()) {
-            let got = bits(&filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap());
-            assert!(got == expected, "{level}");
+        let expected = bits_at(&case, InstructionSet::Portable);
+        for level in levels() {
+            assert!(bits_at(&case, level) == expected, "{level}");
         }
     }
 }
@@ -58,17 +61,7 @@ fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads
         let featured = Case::random(width, height, 4, &candidates(true), &[3, 1]).with_step(Rule::Exact);
         let alone = Case::random(width, height, 6, &candidates(false), &[]);
         for case in [featured, alone] {
-            let run = |level, threads| {
-                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-                let inputs = case.inputs();
-                bits(&pool.install(|| filter_at(&case.params, &case.passes, &inputs, level)).unwrap())
-            };
-            let expected = run(InstructionSet::Portable, 1);
-            for level in InstructionSet::ALL.into_iter().filter(|level| level.is_available()) {
-                for threads in [1, 3] {
-                    assert!(run(level, threads) == expected, "{width}x{height}, {level}, {threads} threads");
-                }
-            }
+            assert_same_bits(&format!("{width}x{height}"), levels(), |level| bits_at(&case, level));
         }
     }
 }
@@ -76,10 +69,7 @@ fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads
 #[test]
 fn every_number_of_threads_gives_the_same_bits() {
     for case in cases() {
-        let run = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| bits(&case.fast()))
-        };
+        let run = |threads| on_threads(threads, || bits(&case.fast()));
         let expected = run(1);
         assert!(run(2) == expected && run(5) == expected);
     }

@@ -17,10 +17,10 @@ fn extreme_values_give_finite_results() {
             for center in [Center::One, Center::LargestNeighbor { least: 1e-3 }] {
                 for k in [MIN_K, 0.45, MAX_K] {
                     let mut case = Case::random(18, 5, 3, &candidates(true), &[1, 2]).with_step(Rule::Exact);
-                    let mut u = Uniforms(5);
+                    let mut u = Random(5);
                     let mut wild = |plane: &mut Vec<f32>| {
                         plane.iter_mut().for_each(|v| {
-                            *v = if u.next() < 0.5 { scale } else { -scale * u.next() };
+                            *v = if u.uniform() < 0.5 { scale } else { -scale * u.uniform() };
                         });
                     };
                     for [value, v] in &mut case.frame.guide {

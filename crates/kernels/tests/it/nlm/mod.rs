@@ -9,22 +9,7 @@ use noisefloor_kernels::inside::nlm_in_tiles;
 use noisefloor_kernels::nlm::naive::filter_f64;
 use noisefloor_kernels::nlm::*;
 
-/// Uniforms in [0, 1) by SplitMix64.
-struct Uniforms(u64);
-
-impl Uniforms {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1u64 << 24) as f32
-    }
-
-    fn plane(&mut self, n: usize, mut value: impl FnMut(&mut Self) -> f32) -> Vec<f32> {
-        (0..n).map(|_| value(self)).collect()
-    }
-}
+use crate::random::Random;
 
 /// Planes of one frame that own their values.
 #[derive(Clone, Debug)]
@@ -37,27 +22,27 @@ struct Owned {
 }
 
 impl Owned {
-    fn random(u: &mut Uniforms, n: usize, channels: usize, features: &[usize], targets: usize) -> Self {
+    fn random(u: &mut Random, n: usize, channels: usize, features: &[usize], targets: usize) -> Self {
         // A third of the variances is zero; differences are of the size of the noise.
-        let variance = |u: &mut Uniforms| if u.next() < 0.33 { 0.0 } else { 0.1 * u.next() };
+        let variance = |u: &mut Random| if u.uniform() < 0.33 { 0.0 } else { 0.1 * u.uniform() };
         Self {
             guide: (0..channels)
-                .map(|_| [u.plane(n, |u| 0.2 + 0.5 * u.next()), u.plane(n, variance)])
+                .map(|_| [u.plane(n, |u| 0.2 + 0.5 * u.uniform()), u.plane(n, variance)])
                 .collect(),
             features: features
                 .iter()
                 .map(|&count| {
                     (0..count)
                         .map(|_| {
-                            let value = u.plane(n, |u| 0.2 * u.next());
-                            let variance = u.plane(n, |u| 0.01 * u.next() * u.next());
-                            let spread = variance.iter().map(|v| v.max(0.02 * u.next())).collect();
+                            let value = u.plane(n, |u| 0.2 * u.uniform());
+                            let variance = u.plane(n, |u| 0.01 * u.uniform() * u.uniform());
+                            let spread = variance.iter().map(|v| v.max(0.02 * u.uniform())).collect();
                             [value, variance, spread]
                         })
                         .collect()
                 })
                 .collect(),
-            targets: (0..targets).map(|_| u.plane(n, Uniforms::next)).collect(),
+            targets: (0..targets).map(|_| u.plane(n, Random::uniform)).collect(),
         }
     }
 
@@ -91,19 +76,19 @@ struct Case {
 
 impl Case {
     fn random(width: usize, height: usize, radius: usize, passes: &[Pass], features: &[usize]) -> Self {
-        let mut u = Uniforms((width * 1000 + height * 10 + radius) as u64);
+        let mut u = Random((width * 1000 + height * 10 + radius) as u64);
         let frame = Owned::random(&mut u, width * height, 3, features, 2);
         let params = NlmParams::new(width, height, radius, 0.45);
         Self { params, passes: passes.to_vec(), frame, neighbors: Vec::new(), step: None }
     }
 
     fn with_step(mut self, rule: Rule) -> Self {
-        let mut u = Uniforms(7);
+        let mut u = Random(7);
         // A tenth of the pixels asks for the derivative of fixed weights.
         self.step = Some((
             [0, 1, 2].map(|c| {
                 let values = self.frame.guide[c][0].iter();
-                values.map(|v| if u.next() < 0.1 { 0.0 } else { 0.01 * v }).collect()
+                values.map(|v| if u.uniform() < 0.1 { 0.0 } else { 0.01 * v }).collect()
             }),
             rule,
         ));
@@ -111,7 +96,7 @@ impl Case {
     }
 
     fn with_neighbors(mut self, count: usize) -> Self {
-        let mut u = Uniforms(11);
+        let mut u = Random(11);
         let features: Vec<usize> = self.frame.features.iter().map(Vec::len).collect();
         let (n, channels) = (self.params.width * self.params.height, self.frame.guide.len());
         self.neighbors = (0..count)

@@ -61,7 +61,7 @@ fn more_patches_and_floors_than_one_sweep_serves_agree() {
 fn guides_of_any_number_of_channels_agree() {
     for channels in 1..=4 {
         let mut case = Case::random(19, 9, 3, &[pass(Some(2), 1.0)], &[]);
-        case.frame = Owned::random(&mut Uniforms(3), 19 * 9, channels, &[], 1);
+        case.frame = Owned::random(&mut Random(3), 19 * 9, channels, &[], 1);
         agrees(&case);
     }
 }

@@ -32,7 +32,7 @@ fn without_patch_and_features_it_is_the_clipped_box_mean() {
 fn a_patch_of_none_ignores_the_guide() {
     let case = Case::random(30, 12, 4, &[pass(None, 1e-3)], &[1]);
     let mut other = case.clone();
-    other.frame.guide = Owned::random(&mut Uniforms(99), 360, 3, &[], 0).guide;
+    other.frame.guide = Owned::random(&mut Random(99), 360, 3, &[], 0).guide;
     assert_eq!(case.fast(), other.fast());
     // And a guide with a patch does not.
     let with = |c: &Case| Case { passes: vec![pass(Some(1), 1e-3)], ..c.clone() }.fast();

@@ -38,10 +38,11 @@ fn derivative_rules() -> Vec<WeightRules> {
 /// A smooth guide under noise, of which opposite neighbours tell something.
 fn ramps(mut case: Case) -> Case {
     let (w, n) = (case.params.width, case.params.width * case.params.height);
-    let mut u = Uniforms(17);
+    let mut u = Random(17);
     for (c, [value, variance]) in case.frame.guide.iter_mut().enumerate() {
-        *value = (0..n).map(|i| 0.3 + (0.02 + 0.01 * c as f32) * (i % w) as f32 + 0.02 * u.next()).collect();
-        variance.iter_mut().for_each(|v| *v = 1e-4 + 1e-3 * u.next());
+        *value =
+            (0..n).map(|i| 0.3 + (0.02 + 0.01 * c as f32) * (i % w) as f32 + 0.02 * u.uniform()).collect();
+        variance.iter_mut().for_each(|v| *v = 1e-4 + 1e-3 * u.uniform());
     }
     case
 }
@@ -73,7 +74,7 @@ fn every_rule_agrees_with_every_choice() {
             case.params =
                 NlmParams { denominator, center, cancellation, guide_denominator: guide, ..case.params };
             agrees(&case);
-            case.frame = Owned::random(&mut Uniforms(3), 119, 1, &[], 1);
+            case.frame = Owned::random(&mut Random(3), 119, 1, &[], 1);
             agrees(&case);
         }
     }
