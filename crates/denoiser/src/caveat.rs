@@ -8,6 +8,8 @@ pub enum Caveat {
     Undefined,
     /// It is no average: an even image does not come out at the level it has.
     Level,
+    /// A sample that is brighter than all others by orders of magnitude may leave it with more light than came in.
+    Light,
 }
 
 impl fmt::Display for Caveat {
@@ -15,6 +17,7 @@ impl fmt::Display for Caveat {
         f.write_str(match self {
             Self::Undefined => "undefined on some frames",
             Self::Level => "no average",
+            Self::Light => "may make light of outliers",
         })
     }
 }

@@ -1,6 +1,6 @@
 //! What the method needs and what may be said of it.
 
-use noisefloor_denoiser::{Citation, Cost, Entry, Invariance, MethodCard, Need, Published};
+use noisefloor_denoiser::{Caveat, Citation, Cost, Entry, Invariance, MethodCard, Need, Published};
 use noisefloor_frame::FeatureId;
 
 use super::params::{Depth, Exposure, Params, Profile};
@@ -49,6 +49,9 @@ pub(super) fn card(params: &Params, settings: &Settings) -> MethodCard {
         let units = "1e-7 is added to variances of depth, and columns below 1.3e-6 of the largest are dropped, in its unit";
         card.varies_with.push((Invariance::FeatureUnits, units.into()));
     }
+    let light = "models of windows with a spike predict its surroundings by unequal weights: one sample of a million times the \
+                 others leaves a small frame with 3 % more";
+    card.caveats.push((Caveat::Light, light.into()));
     card.notes.push("the error estimate is that of the image before the last regression".into());
     card
 }
