@@ -1,11 +1,13 @@
 //! Do the input's confidence intervals cover?
 
 mod analyse;
+mod claims;
 mod exhibit;
 mod measure;
 mod readme;
 
 pub(crate) use analyse::mark;
+pub(crate) use claims::bracketed;
 
 use crate::question::Question;
 

@@ -4,6 +4,7 @@ mod bounds;
 mod breakage;
 pub mod cell;
 mod charts;
+mod claims;
 mod comparison;
 mod convergence;
 mod cost;
@@ -21,6 +22,7 @@ mod question;
 mod readme;
 mod records;
 mod shown;
+mod statistics;
 mod summarise;
 mod view;
 

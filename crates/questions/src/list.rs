@@ -6,7 +6,7 @@ use crate::cell::{Cell, MeasureError};
 use crate::question::Question;
 use crate::{
     bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth, own_error,
-    paper,
+    paper, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -16,6 +16,7 @@ pub const QUESTIONS: &[Question] = &[
     comparison::QUESTION,
     convergence::QUESTION,
     cost::QUESTION,
+    statistics::QUESTION,
     coverage::QUESTION,
     bounds::QUESTION,
     own_error::QUESTION,

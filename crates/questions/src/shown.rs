@@ -1,10 +1,14 @@
 //! Cells of tables as several questions show them: a text for people, and the unrounded number behind it.
 
+mod verdict;
+
 use std::collections::BTreeSet;
 
-use noisefloor_study::exhibit::{Column, Number, TableCell, Tone};
+use noisefloor_study::exhibit::{Column, Number, TableCell};
 use noisefloor_study::format;
-use noisefloor_study::summary::{BoundState, Interval};
+use noisefloor_study::summary::Interval;
+
+pub(crate) use verdict::{changed_by, judged, number, probability, region, word};
 
 /// A value with its uncertainty.
 pub(crate) fn value(interval: &Interval) -> TableCell {
@@ -49,15 +53,6 @@ pub(crate) fn seconds(seconds: Option<f64>) -> TableCell {
 /// A column for a level of samples per pixel.
 pub(crate) fn level_column(spp: u32) -> Column {
     Column::number(format!("{spp} spp"))
-}
-
-/// How the state of a bound sounds.
-pub(crate) fn tone(state: BoundState) -> Tone {
-    match state {
-        BoundState::Holds => Tone::Good,
-        BoundState::Fails => Tone::Bad,
-        BoundState::Undecided => Tone::Plain,
-    }
 }
 
 /// The remarks below a table that explain its stars, once each.

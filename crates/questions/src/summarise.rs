@@ -5,6 +5,7 @@ use noisefloor_study::record::Record;
 use noisefloor_study::summary::{Environment, SUMMARY_SCHEMA, StudyInfo, Summary, Warning, WarningKind};
 use noisefloor_study::{Study, metric};
 
+use crate::claims;
 use crate::flicker::{Images, Sequences, flicker};
 use crate::list::QUESTIONS;
 use crate::records::{Index, scenes};
@@ -51,6 +52,7 @@ pub fn summarise(
         ..Summary::default()
     };
     QUESTIONS.iter().for_each(|question| (question.analyse)(&index, &mut summary));
+    claims::settle(&mut summary);
     summary
 }
 

@@ -4,7 +4,8 @@ use std::collections::BTreeMap;
 
 use noisefloor_study::exhibit::{RowKind, RowLook, TableCell};
 use noisefloor_study::summary::{
-    CellSummary, Comparison, Completion, MethodSummary, MetricInfo, SceneSummary, Summary,
+    CellSummary, ClaimId, ClaimSummary, Comparison, Completion, MethodSummary, MetricInfo, SceneSummary,
+    Summary,
 };
 use noisefloor_study::{BASELINE, RowFrames};
 
@@ -15,6 +16,7 @@ pub struct View<'a> {
     pub summary: &'a Summary,
     cells: BTreeMap<(&'a str, u32, &'a str), &'a CellSummary>,
     comparisons: BTreeMap<(&'a str, u32, &'a str), &'a Comparison>,
+    claims: BTreeMap<&'a ClaimId, &'a ClaimSummary>,
 }
 
 impl<'a> View<'a> {
@@ -24,11 +26,17 @@ impl<'a> View<'a> {
         let cells = summary.cells.iter().map(|c| ((c.scene.as_str(), c.spp, c.label.as_str()), c)).collect();
         let comparisons =
             summary.comparisons.iter().map(|c| ((c.scene.as_str(), c.spp, c.metric.as_str()), c)).collect();
-        Self { summary, cells, comparisons }
+        let claims = summary.claims.iter().map(|claim| (&claim.id, claim)).collect();
+        Self { summary, cells, comparisons, claims }
     }
 
     pub(crate) fn cell(&self, scene: &str, spp: u32, label: &str) -> Option<&'a CellSummary> {
         self.cells.get(&(scene, spp, label)).copied()
+    }
+
+    /// The claim of this name, if it was judged.
+    pub(crate) fn claim(&self, id: &ClaimId) -> Option<&'a ClaimSummary> {
+        self.claims.get(id).copied()
     }
 
     pub(crate) fn comparison(&self, scene: &str, spp: u32, metric: &str) -> Option<&'a Comparison> {

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::observed::{Tally, expect, rounding, tally};
-use crate::{Groups, Interval, Level, Observed, ShapeError, Truth, normal_quantile};
+use crate::{Groups, Level, Observed, ShapeError, Truth, normal_quantile};
 
 /// Counts over pixel-channels that have a bound.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
@@ -118,22 +118,6 @@ pub fn bound_violations(
     })
 }
 
-/// What the measured rate of violations says about a bound.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum BoundVerdict {
-    /// The interval of the rate lies below α or reaches it.
-    Holds,
-    /// The whole interval lies above α.
-    Fails,
-}
-
-/// Judges a rate of violations against α; without an interval the rate itself is compared.
-#[must_use]
-pub fn bound_verdict(rate: &Interval, alpha: f64) -> BoundVerdict {
-    if rate.low.unwrap_or(rate.value) > alpha { BoundVerdict::Fails } else { BoundVerdict::Holds }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -164,13 +148,5 @@ mod tests {
         assert_eq!((tally.total, tally.violations, tally.violations_uncorrected), (5, 3, 4));
         assert_eq!(tally.violations_missed, 1);
         assert!((tally.mean_ratio().unwrap() - (0.9 + 1.1 + 1.5) / 3.0).abs() < 1e-6);
-    }
-
-    #[test]
-    fn a_bound_fails_only_if_the_whole_interval_is_above_alpha() {
-        let rate = |low, value| Interval { low, ..Interval::point(value, Level::TWO_SIDED_95) };
-        assert_eq!(bound_verdict(&rate(Some(0.009), 0.02), 0.01), BoundVerdict::Holds);
-        assert_eq!(bound_verdict(&rate(Some(0.011), 0.02), 0.01), BoundVerdict::Fails);
-        assert_eq!(bound_verdict(&rate(None, 0.02), 0.01), BoundVerdict::Fails);
     }
 }

@@ -8,7 +8,7 @@ use crate::{Interval, Level, Levels, Plateau, Slope, plateau, replicate_interval
 /// What a series of errors over sample counts shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum Trend {
     /// Still falling at the top of the range, and no sign of a floor.
     Consistent,
     /// Flat at the top of the range, at a bias that is significantly above zero and above what the reference
@@ -18,7 +18,7 @@ pub enum Verdict {
     Undecided,
 }
 
-impl Verdict {
+impl Trend {
     /// Word in summaries.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -42,7 +42,7 @@ pub struct Convergence {
     /// Floor b of error(n) = b + c/n, in the unit of the metric.
     pub bias: Option<Interval>,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: Trend,
     /// The verdict in a sentence with its numbers.
     pub sentence: String,
 }
@@ -88,13 +88,13 @@ pub fn convergence(levels: &Levels, order: u32, level: Level) -> Convergence {
     let falling = tail.and_then(|t| t.high).is_some_and(|high| high < -FALLING * power);
     let flattens = above_zero(flattening);
     let verdict = if levels.len() < 3 {
-        Verdict::Undecided
+        Trend::Undecided
     } else if flat && biased {
-        Verdict::Plateaus
+        Trend::Plateaus
     } else if falling && !(biased && flattens) {
-        Verdict::Consistent
+        Trend::Consistent
     } else {
-        Verdict::Undecided
+        Trend::Undecided
     };
     let bias = fit.map(|fit| in_unit(&fit, order));
     let sentence = sentence(levels, verdict, whole.as_ref(), tail, bias, (falling, biased, flattens));
@@ -135,7 +135,7 @@ fn in_unit(fit: &Plateau, order: u32) -> Interval {
 
 fn sentence(
     levels: &Levels,
-    verdict: Verdict,
+    verdict: Trend,
     whole: Option<&Slope>,
     tail: Option<Interval>,
     bias: Option<Interval>,
@@ -157,9 +157,9 @@ fn sentence(
     let tail = tail.map_or(String::new(), |t| format!(", {:.2}{} at its end", t.value, ends(&t, 2)));
     let floor = bias.map_or(String::new(), |b| format!("{:.2e}{}", b.value, ends(&b, 0)));
     match verdict {
-        Verdict::Consistent => format!("consistent: {fall}{tail}, no floor shows"),
-        Verdict::Plateaus => format!("plateaus at bias {floor}: {fall}{tail}"),
-        Verdict::Undecided => {
+        Trend::Consistent => format!("consistent: {fall}{tail}, no floor shows"),
+        Trend::Plateaus => format!("plateaus at bias {floor}: {fall}{tail}"),
+        Trend::Undecided => {
             let why = if levels.len() < 3 {
                 "fewer than three levels".to_owned()
             } else if whole.interval.low.is_none() {
@@ -257,9 +257,9 @@ mod tests {
         let mut levels = Levels::new();
         levels.push(4.0, &[Some(1.0), Some(1.1)], 0.0);
         levels.push(16.0, &[Some(0.25), Some(0.27)], 0.0);
-        assert_eq!(convergence(&levels, 2, Level::TWO_SIDED_95).verdict, Verdict::Undecided);
+        assert_eq!(convergence(&levels, 2, Level::TWO_SIDED_95).verdict, Trend::Undecided);
         let empty = convergence(&Levels::new(), 2, Level::TWO_SIDED_95);
-        assert_eq!((empty.verdict, empty.slope), (Verdict::Undecided, None));
+        assert_eq!((empty.verdict, empty.slope), (Trend::Undecided, None));
     }
 
     #[test]
@@ -270,7 +270,7 @@ mod tests {
             levels.push(spp, &[Some(e), Some(e * 1.0001)], 0.0);
         }
         let c = convergence(&levels, 1, Level::TWO_SIDED_95);
-        assert_eq!(c.verdict, Verdict::Plateaus);
+        assert_eq!(c.verdict, Trend::Plateaus);
         assert!((c.bias.unwrap().value - 0.2).abs() < 1e-3, "{}", c.sentence);
         assert!(c.sentence.starts_with("plateaus at bias 2.00e-1"), "{}", c.sentence);
     }

@@ -19,12 +19,13 @@ mod proportion;
 mod share;
 mod slope;
 mod student;
+mod verdict;
 
 pub mod random;
 
-pub use bounds::{BoundTally, BoundVerdict, bound_verdict, bound_violations, half_widths};
+pub use bounds::{BoundTally, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
-pub use convergence::{Convergence, Verdict, convergence};
+pub use convergence::{Convergence, Trend, convergence};
 pub use coverage::{CoverageTally, coverage};
 pub use enclosure::{Enclosure, enclosure};
 pub use equal_error::{Multiplier, equal_error_multiplier};
@@ -40,4 +41,5 @@ pub use plateau::{Plateau, plateau};
 pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_error};
 pub use share::ReferenceShare;
 pub use slope::{Slope, slope};
-pub use student::{TTable, normal_quantile, t_quantile, t_two_sided_p};
+pub use student::{TTable, normal_quantile, normal_two_sided_p, t_quantile, t_two_sided_p};
+pub use verdict::{Evidence, Judged, Needed, Region, Verdict, Verdicts, judge};

@@ -12,6 +12,8 @@ pub struct Slope {
     pub interval: Interval,
     /// Least-squares slope of each replicate that has every level.
     pub per_replicate: Vec<f64>,
+    /// Part of the interval's standard error that comes from the reference and is common to all replicates.
+    pub common: f64,
     /// Sample counts that took part.
     pub spp: Vec<f64>,
 }
@@ -57,7 +59,8 @@ pub(crate) fn slope_between(levels: &Levels, level: Level, low: f64, high: f64) 
     }
     let common = levels.combined(&gradient).standard_error;
     let interval = replicate_interval(&per_replicate, common, level)?;
-    let slope = Slope { interval, per_replicate, spp: used.iter().map(|&l| levels.spp()[l]).collect() };
+    let slope =
+        Slope { interval, per_replicate, common, spp: used.iter().map(|&l| levels.spp()[l]).collect() };
     Some(Fit { slope, gradient })
 }
 

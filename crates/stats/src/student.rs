@@ -43,11 +43,17 @@ pub fn t_two_sided_p(statistic: f64, degrees: u64) -> f64 {
         return 0.0;
     }
     if degrees > 1_000_000 {
-        return (2.0 * Normal::standard().sf(statistic.abs())).min(1.0);
+        return normal_two_sided_p(statistic);
     }
     let t = StudentsT::new(0.0, 1.0, degrees.max(1) as f64)
         .expect("location 0, scale 1, at least one degree of freedom");
     (2.0 * t.sf(statistic.abs())).min(1.0)
+}
+
+/// Probability that a standard normal number exceeds `statistic` in absolute value; 1 for one that is not a number.
+#[must_use]
+pub fn normal_two_sided_p(statistic: f64) -> f64 {
+    if statistic.is_nan() { 1.0 } else { (2.0 * Normal::standard().sf(statistic.abs())).min(1.0) }
 }
 
 fn refine(mut x: f64, tail: f64, sf: impl Fn(f64) -> f64, pdf: impl Fn(f64) -> f64) -> f64 {

@@ -138,7 +138,8 @@ fn comparisons_and_fits_take_anything_and_missing_numbers_show_nothing() {
         let _ = (pareto_front(&points), rate_standard_error(picks.number(), picks.next()));
         let hits: Vec<bool> = plain.iter().map(|v| *v > 0.5).collect();
         let _ = clustered_rate(&hits, (picks.next() % 4) as usize);
-        let _ = bound_verdict(&Interval::point(picks.number(), level), picks.number());
+        let evidence = Evidence::of(&Interval::point(picks.number(), level), picks.number());
+        let _ = judge(&evidence, Region { low: picks.number(), high: picks.number() });
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod about;
 mod cell;
+mod claim;
 mod claims;
 mod compare;
 mod equal_time;
@@ -21,6 +22,7 @@ use serde_json::Value;
 
 pub use about::{Environment, MetricInfo, StudyInfo};
 pub use cell::{CellSummary, MethodSummary, Skipped};
+pub use claim::{ClaimFamily, ClaimId, ClaimSummary, Scale};
 pub use claims::{BoundSummary, CoverageSummary};
 pub use compare::{Comparison, PairResult, PaperResult, SlopeSummary};
 pub use equal_time::EqualTime;
@@ -29,7 +31,7 @@ pub use flicker::FlickerSummary;
 pub use interval::{Interval, Source};
 pub use progress::{Completion, Missing};
 pub use scene::{ReferenceSummary, SceneSummary};
-pub use verdict::{Agreement, BoundState, Calibration, Status};
+pub use verdict::{Agreement, Status};
 pub use warning::{Warning, WarningKind};
 
 /// Version of the summary format.
@@ -83,6 +85,12 @@ pub struct Summary {
     pub findings: Vec<Finding>,
     /// Statements that a reader must see first: marked cells, violated enclosures, short references.
     pub warnings: Vec<Warning>,
+    /// Every claim that was judged, by question, scene, level and row.
+    #[serde(default)]
+    pub claims: Vec<ClaimSummary>,
+    /// All of them together.
+    #[serde(default)]
+    pub family: ClaimFamily,
     /// What questions found that have no field of their own here, by the question's id.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub answers: BTreeMap<String, Value>,

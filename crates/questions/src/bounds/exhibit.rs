@@ -1,13 +1,11 @@
 //! What a reader sees.
 
-mod answer;
 mod chart;
 mod enclosures;
 mod table;
 
 use noisefloor_study::exhibit::{Exhibit, Part};
 
-pub(super) use answer::answer;
 pub(super) use table::{Promises, promises};
 
 use crate::view::View;

@@ -2,8 +2,10 @@ use noisefloor_study::exhibit::{Table, TableCell};
 use noisefloor_study::format;
 use noisefloor_study::summary::{BoundSummary, SceneSummary};
 
+use super::analyse::id_of;
 use super::exhibit::{Promises, promises};
 use crate::readme::{Block, Chosen, Kind, headed, push};
+use crate::view::View;
 
 pub(super) const KINDS: &[Kind] = &[Kind { name: "bounds", keys: &["scenes", "spp", "rows"], make: bounds }];
 
@@ -24,14 +26,16 @@ fn table(chosen: &Chosen<'_>, scene: &SceneSummary, promises: &Promises<'_>) -> 
     let first = std::iter::once("samples per pixel".to_owned());
     let mut out = headed(format!("bounds-{}", scene.id), first.chain(names));
     for (k, spp) in promises.spp.iter().enumerate().filter(|(_, spp)| chosen.spp.contains(spp)) {
-        let cells = claims.iter().map(|claim| claim.found[k].map_or_else(TableCell::none, rate));
+        let cells =
+            claims.iter().map(|claim| claim.found[k].map_or_else(TableCell::none, |b| rate(chosen.view, b)));
         push(&mut out, std::iter::once(TableCell::count((*spp).into())).chain(cells).collect());
     }
     out
 }
 
-fn rate(b: &BoundSummary) -> TableCell {
+fn rate(view: &View<'_>, b: &BoundSummary) -> TableCell {
     let mark = if b.mark.is_some() { " \\*" } else { "" };
     let rate = format::percent_interval(&b.violations).value;
-    TableCell::text(format!("{rate}{mark} {}", b.verdict)).number((&b.violations).into())
+    let verdict = view.claim(&id_of(b)).map_or("", |claim| claim.verdict.name());
+    TableCell::text(format!("{rate}{mark} {verdict}")).number((&b.violations).into())
 }

@@ -1,3 +1,4 @@
+use super::claims::{Part, claims};
 use crate::records::Index;
 use crate::records::rate;
 use crate::records::{LONG_ENOUGH, reference_ratio, times};
@@ -19,29 +20,35 @@ pub(crate) fn mark(scene: &SceneContext, spp: u32) -> Option<String> {
 }
 
 pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
-    summary.coverage = coverage(index);
-}
-
-/// Coverage per scene, level, confidence and class, over replicates.
-fn coverage(index: &Index<'_>) -> Vec<CoverageSummary> {
-    let Some(baseline) = index.baseline() else { return Vec::new() };
-    let mut out = Vec::new();
+    let Some(baseline) = index.baseline() else { return };
+    let label = &baseline.summary.label;
     for scene in index.scenes() {
         for spp in index.levels_of(scene) {
-            let records = index.records(scene, spp, &baseline.summary.label);
-            // Some replicates may lack a class that has no statistics there; the union over them is shown.
-            let mut kinds: Vec<(f64, &str)> = Vec::new();
-            for count in records.iter().flat_map(|record| &record.coverage) {
-                if !kinds.iter().any(|(c, class)| *c == count.confidence && *class == count.class) {
-                    kinds.push((count.confidence, &count.class));
-                }
-            }
-            for (confidence, class) in kinds {
-                out.extend(one(scene, spp, confidence, class, records));
-            }
+            of_level(scene, spp, label, index.records(scene, spp, label), summary);
         }
     }
-    out
+}
+
+/// Coverage per confidence and class over the replicates of a level, and what is claimed of it.
+fn of_level(scene: &SceneContext, spp: u32, label: &str, records: &[&Record], summary: &mut Summary) {
+    // Some replicates may lack a class that has no statistics there; the union over them is shown.
+    let mut kinds: Vec<(f64, &str)> = Vec::new();
+    for count in records.iter().flat_map(|record| &record.coverage) {
+        if !kinds.iter().any(|(c, class)| *c == count.confidence && *class == count.class) {
+            kinds.push((count.confidence, &count.class));
+        }
+    }
+    for (confidence, class) in kinds {
+        let counts: Vec<&CoverageCount> = records
+            .iter()
+            .flat_map(|record| &record.coverage)
+            .filter(|count| count.confidence == confidence && count.class == class)
+            .collect();
+        if let Some(row) = one(scene, spp, confidence, class, &counts) {
+            claims(summary, scene, label, (&row, &counts));
+            summary.coverage.push(row);
+        }
+    }
 }
 
 fn one(
@@ -49,13 +56,8 @@ fn one(
     spp: u32,
     confidence: f64,
     class: &str,
-    records: &[&Record],
+    counts: &[&CoverageCount],
 ) -> Option<CoverageSummary> {
-    let counts: Vec<&CoverageCount> = records
-        .iter()
-        .flat_map(|record| &record.coverage)
-        .filter(|count| count.confidence == confidence && count.class == class)
-        .collect();
     let all = |c: &CoverageCount| c.total + c.constant + c.missed;
     let covered: Vec<(u64, u64)> = counts.iter().map(|c| (c.covered + c.constant, all(c))).collect();
     let uncorrected: Vec<(u64, u64)> =
@@ -72,6 +74,8 @@ fn one(
         class: class.to_owned(),
         covered: rate(&covered, within)?,
         covered_uncorrected: rate(&uncorrected, within)?,
+        varying: Part::Varying.share(counts).map(|([share, _], _)| share),
+        lit: Part::Lit.share(counts).map(|([share, _], _)| share),
         constant: share(|c| c.constant),
         missed: share(|c| c.missed),
         mark: mark(scene, spp),

@@ -1,16 +1,48 @@
 use std::collections::BTreeSet;
 
-use noisefloor_stats::{self as stats, ReferenceShare, paired_effect, replicate_interval};
+use noisefloor_stats::{self as stats, ReferenceShare, Region, paired_effect, replicate_interval};
 
 use crate::cell::ALL;
+use crate::claims::{Claim, push};
 use crate::records::Index;
 use crate::records::reference_share;
 use crate::records::{LEVEL, told};
 use noisefloor_study::record::{EstimateCheck, EstimateMeans, Record};
-use noisefloor_study::summary::{Calibration, EstimateBin, EstimateSummary, Interval, Source, Summary};
+use noisefloor_study::summary::{ClaimId, EstimateBin, EstimateSummary, Scale, Source, Summary};
 
 pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     summary.estimates = estimates(index);
+    let all: Vec<EstimateSummary> =
+        summary.estimates.iter().filter(|estimate| estimate.class == ALL).cloned().collect();
+    all.iter().for_each(|estimate| claim(estimate, summary));
+}
+
+/// Which claim the estimate of a row is.
+pub(super) fn id(scene: &str, spp: u32, label: &str) -> ClaimId {
+    ClaimId {
+        question: "own_error".into(),
+        what: "calibrated".into(),
+        scene: scene.to_owned(),
+        spp: Some(spp),
+        label: label.to_owned(),
+    }
+}
+
+/// That the estimate is within a fifth of the measured error, by the ratio of the two.
+fn claim(estimate: &EstimateSummary, summary: &mut Summary) {
+    let measured = &estimate.measured;
+    let claim = Claim {
+        id: id(&estimate.scene, estimate.spp, &estimate.label),
+        sentence: "estimates its own squared error within 0.8 to 1.25 of the measured one".into(),
+        effect: estimate.effect.clone(),
+        uncorrected: None,
+        // A difference is all that there is where the measured error is not positive.
+        scale: if estimate.is_ratio { Scale::Ratio } else { Scale::Number },
+        region: estimate.is_ratio.then_some(Region::ESTIMATE),
+        common: if measured.value > 0.0 { estimate.reference_se / measured.value } else { 0.0 },
+        trials: None,
+    };
+    push(summary, claim);
 }
 
 /// Estimated against measured squared error per scene, level, row and class, over replicates.
@@ -89,48 +121,10 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
         class: class.to_owned(),
         estimated: mean(&estimated, 0.0)?,
         measured: mean(&measured, reference)?,
-        verdict: verdict(&interval, effect.is_ratio),
         effect: interval,
         is_ratio: effect.is_ratio,
+        reference_se: reference,
         deciles: (0..bins).filter_map(bin).collect(),
         non_finite: found.iter().map(|(check, _)| check.non_finite).sum(),
     })
-}
-
-fn verdict(effect: &Interval, is_ratio: bool) -> Calibration {
-    let equal = if is_ratio { 1.0 } else { 0.0 };
-    match (effect.low, effect.high) {
-        (Some(low), _) if low > equal => Calibration::Pessimistic,
-        (_, Some(high)) if high < equal => Calibration::Optimistic,
-        (Some(_), Some(_)) => Calibration::Calibrated,
-        _ => Calibration::Undecided,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_verdict_follows_from_where_equality_lies() {
-        let of = |low, high, is_ratio| {
-            let interval = Interval {
-                value: 0.5,
-                standard_error: None,
-                low,
-                high,
-                confidence: 0.95,
-                n: 2,
-                source: Source::Replicates,
-                below: None,
-            };
-            verdict(&interval, is_ratio)
-        };
-        assert_eq!(of(Some(0.9), Some(1.1), true), Calibration::Calibrated);
-        assert_eq!(of(Some(0.5), Some(0.9), true), Calibration::Optimistic);
-        assert_eq!(of(Some(1.1), Some(1.9), true), Calibration::Pessimistic);
-        assert_eq!(of(Some(-0.5), Some(-0.1), false), Calibration::Optimistic);
-        assert_eq!(of(Some(0.1), Some(0.9), false), Calibration::Pessimistic);
-        assert_eq!(of(None, None, true), Calibration::Undecided);
-    }
 }

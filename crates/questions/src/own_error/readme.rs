@@ -1,6 +1,7 @@
 use noisefloor_study::exhibit::{Table, TableCell};
 use noisefloor_study::summary::SceneSummary;
 
+use super::analyse::id;
 use super::exhibit::effect;
 use crate::readme::{Block, Chosen, Kind, code, headed_by, plain, push};
 use crate::shown;
@@ -28,7 +29,9 @@ fn table(chosen: &Chosen<'_>, scene: &SceneSummary) -> Table {
             plain(&shown::value(&e.estimated)),
             plain(&shown::value(&e.measured)),
             plain(&effect(e)),
-            TableCell::text(e.verdict.name()),
+            TableCell::text(
+                chosen.view.claim(&id(&e.scene, e.spp, &e.label)).map_or("", |c| c.verdict.name()),
+            ),
         ];
         push(&mut out, cells);
     }

@@ -1,11 +1,45 @@
+use crate::claims::{Claim, push};
 use crate::records::Index;
 use crate::records::{by_replicate, error_ratio};
+use noisefloor_stats::Region;
 use noisefloor_study::context::SceneContext;
-use noisefloor_study::summary::{Agreement, Interval, PaperResult, Summary};
+use noisefloor_study::summary::{Agreement, ClaimId, Interval, PaperResult, Scale, Summary};
 use noisefloor_study::{PaperComparison, PaperRatio};
 
 pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     summary.paper = paper(index);
+    let all = summary.paper.clone();
+    all.iter().for_each(|result| claim(result, summary));
+}
+
+/// Which claim a comparison with the source is.
+pub(super) fn id(result: &PaperResult) -> ClaimId {
+    ClaimId {
+        question: "paper".into(),
+        what: format!("{}: {} of {} over {}", result.what, result.metric, result.row, result.over),
+        scene: result.scene.clone(),
+        spp: Some(result.spp),
+        label: result.row.clone(),
+    }
+}
+
+/// That our ratio is the source's, or in its range, to within a tenth.
+fn claim(result: &PaperResult, summary: &mut Summary) {
+    let Some(effect) = result.ours.clone() else { return };
+    let [low, high] = result.paper;
+    // Rows over other frames or fewer pixels are no evidence.
+    let region = result.reason.is_none().then(|| Region::source(low, high));
+    let claim = Claim {
+        id: id(result),
+        sentence: format!("{}: as in {}, to within a tenth", result.what, result.source),
+        effect,
+        uncorrected: None,
+        scale: Scale::Ratio,
+        region,
+        common: 0.0,
+        trials: None,
+    };
+    push(summary, claim);
 }
 
 /// Ratios beside the source work's, in the order of the study's comparisons, scenes and levels.

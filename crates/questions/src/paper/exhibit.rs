@@ -1,14 +1,15 @@
 //! What a reader sees.
 
-use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow, Tone};
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
-use noisefloor_study::summary::{Agreement, PaperResult};
+use noisefloor_study::summary::PaperResult;
 
+use super::analyse::id;
 use crate::shown;
 use crate::view::View;
 
 const NOTE: &str = "Ratio of two rows' errors, geometric mean over replicates on the same frames with its 95 % interval, beside \
-    the ratio that the source reports. “Agrees”: the interval meets the source's number or range. “Opposite sign”: ours and the \
+    the ratio that the source reports. “Shown”: ours is the source's number or in its range, to within a tenth. “Agrees”: the interval meets the source's number or range. “Opposite sign”: ours and the \
     source's are on different sides of 1. The scenes are analogues of the source's, so agreement is about the effect and not about \
     digits.";
 
@@ -23,6 +24,7 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
         Column::number("Ours"),
         Column::number("The paper's"),
         Column::text("Source"),
+        Column::text("As the source"),
         Column::text("In words"),
     ];
     let rows = view.summary.paper.iter().map(|result| row(view, result)).collect();
@@ -45,7 +47,8 @@ fn row(view: &View<'_>, r: &PaperResult) -> TableRow {
         ours(r),
         theirs(r),
         TableCell::text(&r.source),
-        TableCell::text(r.verdict.name()).tone(tone(r.verdict)).aside(r.reason.clone().unwrap_or_default()),
+        shown::word(view.claim(&id(r))),
+        TableCell::text(r.verdict.name()).aside(r.reason.clone().unwrap_or_default()),
     ])
 }
 
@@ -58,19 +61,6 @@ pub(super) fn ours(r: &PaperResult) -> TableCell {
 pub(super) fn theirs(r: &PaperResult) -> TableCell {
     let [low, high] = r.paper;
     TableCell { number: (low == high).then(|| Number::exact(low)), ..TableCell::text(range(r.paper)) }
-}
-
-fn tone(verdict: Agreement) -> Tone {
-    match verdict {
-        Agreement::Agrees => Tone::Good,
-        Agreement::Opposite => Tone::Bad,
-        Agreement::LargerGain
-        | Agreement::SmallerGain
-        | Agreement::LargerLoss
-        | Agreement::SmallerLoss
-        | Agreement::Undecided
-        | Agreement::NoNumber => Tone::Plain,
-    }
 }
 
 /// `0.36`, or `0.0082 to 0.36`: as many digits as the source gives.

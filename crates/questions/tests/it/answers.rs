@@ -2,9 +2,9 @@
 
 use noisefloor_questions::document;
 use noisefloor_study::exhibit::Tone;
-use noisefloor_study::summary::{BoundState, Status, Summary};
+use noisefloor_study::summary::{Status, Summary};
 
-use crate::fixture::study;
+use crate::fixture::{judge_all, study};
 use crate::look::{answer, told};
 
 const ERROR: &str = "closest to the truth";
@@ -75,9 +75,8 @@ fn costs_of_frames_of_different_sizes_are_told_apart() {
 #[test]
 fn what_was_not_tested_is_never_green() {
     let mut study = study();
-    study.bounds.clear();
-    study.cells.iter_mut().for_each(|cell| cell.enclosure_worst_ratio = None);
-    assert_eq!(answer(&study, CLAIMS).tone, Tone::Plain, "coverage alone is no promise kept");
+    study.claims.clear();
+    assert_eq!(answer(&study, CLAIMS).tone, Tone::Plain, "an enclosure alone is no claim shown");
     assert_ne!(answer(&study, BREAKAGE).tone, Tone::Good, "a row was skipped");
     study.skipped.clear();
     assert_eq!(answer(&study, BREAKAGE).tone, Tone::Good);
@@ -87,16 +86,36 @@ fn what_was_not_tested_is_never_green() {
     assert!(green(&study).is_empty(), "nothing ran");
 }
 
-#[test]
-fn promises_that_held_are_green_and_one_that_broke_is_red() {
+/// The study with the proven bounds as its only claims; they are shown.
+fn proven() -> Summary {
     let mut study = study();
     study.bounds.retain(|b| b.proven);
-    assert_eq!(answer(&study, CLAIMS).tone, Tone::Good);
-    study.bounds[0].verdict = BoundState::Undecided;
-    let undecided = answer(&study, CLAIMS);
-    assert!(undecided.sentences.iter().any(|s| s.contains("undecided in 1 of 16 cells")), "{undecided:?}");
-    study.bounds[0].verdict = BoundState::Fails;
-    assert_eq!(answer(&study, CLAIMS).tone, Tone::Bad);
+    (study.coverage, study.estimates, study.paper) = (Vec::new(), Vec::new(), Vec::new());
+    judge_all(&mut study);
+    study
+}
+
+#[test]
+fn only_claims_that_are_all_shown_are_green_and_one_that_is_refuted_is_red() {
+    let shown = answer(&proven(), CLAIMS);
+    assert_eq!(shown.tone, Tone::Good);
+    assert!(shown.sentences[0].contains("Of 16 claims, 16 shown, 0 refuted, 0 not shown"), "{shown:?}");
+    let with = |low, value, high| {
+        let mut study = proven();
+        let violations = &mut study.bounds[0].violations;
+        (violations.low, violations.value, violations.high) = (Some(low), value, Some(high));
+        violations.standard_error = Some((high - value) / 3.18);
+        judge_all(&mut study);
+        answer(&study, CLAIMS)
+    };
+    let open = with(0.001, 0.0015, 0.0025);
+    assert_eq!(open.tone, Tone::Plain, "lack of evidence is no success");
+    assert!(open.sentences.iter().any(|s| s.contains("15 shown, 0 refuted, 1 not shown")), "{open:?}");
+    assert_eq!(with(0.0099, 0.01, 0.0101).tone, Tone::Bad);
+    // p is 0.05 at the interval's end: refuted alone, not beside fifteen others.
+    let alone = with(0.002_01, 0.003, 0.003_99);
+    assert_eq!(alone.tone, Tone::Plain);
+    assert!(alone.sentences[0].contains("Each taken alone, 1 would be refuted; 0.80 by chance"), "{alone:?}");
 }
 
 /// The study in which the guarded row breaks its proven bound at 4 samples.
@@ -105,9 +124,12 @@ fn broken() -> Summary {
     let guarded = |label: &str| label.starts_with("guarded");
     study.bounds.retain(|b| guarded(&b.label));
     for b in study.bounds.iter_mut().filter(|b| b.spp == 4) {
-        (b.violations.value, b.violations.low, b.violations.high) = (0.01, Some(0.009), Some(0.011));
-        (b.missed, b.verdict) = (0.006, BoundState::Fails);
+        let violations = &mut b.violations;
+        (violations.value, violations.low, violations.high) = (0.01, Some(0.009_9), Some(0.010_1));
+        violations.standard_error = Some(0.0001 / 3.18);
+        b.missed = 0.006;
     }
+    judge_all(&mut study);
     study
 }
 
@@ -116,7 +138,7 @@ fn a_broken_bound_with_its_certain_half_held_is_laid_to_the_light() {
     let claims = answer(&broken(), CLAIMS);
     let told = claims.sentences.join(" ");
     assert_eq!(claims.tone, Tone::Bad, "the promise is broken all the same");
-    assert!(told.contains("broken more often than promised in 2 of 8 cells; worst 1.00 % beside"), "{told}");
+    assert!(told.contains("6 shown, 2 refuted, 0 not shown; worst 1.00 % beside"), "{told}");
     assert!(told.contains("The light breaks them, not the program"), "{told}");
     assert!(
         told.contains("60.0 % of the violations in the worst cell are at pixels that met none"),
@@ -138,6 +160,7 @@ fn the_light_is_not_blamed_without_evidence() {
     assert!(told(&violated, CLAIMS).contains("by a factor of 1.20"));
     let mut printed = broken();
     printed.bounds.iter_mut().for_each(|b| b.proven = false);
+    judge_all(&mut printed);
     assert!(!blamed(&printed), "no proof says that normal samples would keep it");
 }
 

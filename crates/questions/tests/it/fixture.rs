@@ -1,6 +1,7 @@
 //! A made-up study with everything that a reader must see: intervals, limits below the floor, skipped and failed
 //! rows, marks, violated promises and diagnostics.
 
+mod claims;
 mod found;
 
 use std::collections::BTreeMap;
@@ -9,6 +10,7 @@ use noisefloor_study::RowFrames;
 use noisefloor_study::summary::*;
 use serde_json::json;
 
+pub use claims::judge_all;
 use found::{bound, comparison, coverage, estimate, flicker, paper, slope};
 
 pub const SPP: [u32; 4] = [4, 16, 64, 256];
@@ -177,7 +179,7 @@ pub fn summary(titles: &[(&str, &str)], rows: &[Row], size: (u32, u32)) -> Summa
         .collect();
     let bounds =
         per_level().flat_map(|(id, n)| ["all", "edge"].map(|class| claims(id, n, class))).flatten().collect();
-    Summary {
+    let mut summary = Summary {
         schema: SUMMARY_SCHEMA,
         study: StudyInfo {
             name: "fixture".into(),
@@ -235,8 +237,12 @@ pub fn summary(titles: &[(&str, &str)], rows: &[Row], size: (u32, u32)) -> Summa
             WarningKind::ShortReference,
             "The references have only 8 times the samples of the top level.",
         )],
+        claims: Vec::new(),
+        family: ClaimFamily::default(),
         answers: BTreeMap::new(),
-    }
+    };
+    judge_all(&mut summary);
+    summary
 }
 
 pub const TITLES: [(&str, &str); 2] = [("rings", "Rings"), ("lamps", "Lamps")];

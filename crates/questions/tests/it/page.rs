@@ -20,6 +20,7 @@ fn every_section_is_there_in_order() {
             "tables",
             "convergence",
             "speed",
+            "statistics",
             "coverage",
             "bounds",
             "estimates",

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{BoundState, Interval};
+use super::Interval;
 
 /// Coverage of the intervals of the input mean.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,6 +20,12 @@ pub struct CoverageSummary {
     pub covered: Interval,
     /// The same without the allowance.
     pub covered_uncorrected: Interval,
+    /// Fraction of those with s > 0 that are covered, allowing for the reference's noise; none if there are none.
+    #[serde(default)]
+    pub varying: Option<Interval>,
+    /// Fraction covered of those that are not constant: missed events count as misses.
+    #[serde(default)]
+    pub lit: Option<Interval>,
     /// Fraction without variance whose value is right.
     pub constant: f64,
     /// Fraction without variance whose value is wrong: missed events.
@@ -53,8 +59,6 @@ pub struct BoundSummary {
     pub missed: f64,
     /// Mean of |D−μ| over the bound: how loose it is.
     pub mean_ratio: Option<f64>,
-    /// Whether the promise holds.
-    pub verdict: BoundState,
     /// Why the number must be read with care, if so.
     pub mark: Option<String>,
 }

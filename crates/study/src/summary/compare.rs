@@ -1,6 +1,6 @@
 //! Rows beside each other, beside the source work, and over the levels.
 
-use noisefloor_stats::{Family, Verdict};
+use noisefloor_stats::{Family, Trend};
 use serde::{Deserialize, Serialize};
 
 use super::{Agreement, Interval};
@@ -16,8 +16,11 @@ pub struct SlopeSummary {
     pub metric: String,
     /// Slope of log error against log spp, fitted per replicate; −1 for plain Monte Carlo's MSE, −½ for RMSE.
     pub slope: Interval,
+    /// Part of its standard error that the reference contributes.
+    #[serde(default)]
+    pub reference_se: f64,
     /// Whether the error vanishes.
-    pub verdict: Verdict,
+    pub verdict: Trend,
     /// The verdict in a sentence, with the bias where it plateaus.
     pub sentence: String,
     /// Error floor b of error(n) = b + c/n where the verdict is `plateaus`.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Calibration, Interval};
+use super::Interval;
 
 /// A method's estimate of its own squared error beside the measured one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -27,8 +27,9 @@ pub struct EstimateSummary {
     pub effect: Interval,
     /// Whether `effect` is a ratio: all means of all replicates are positive.
     pub is_ratio: bool,
-    /// What that says of the method.
-    pub verdict: Calibration,
+    /// Standard error that the reference contributes to the measured error.
+    #[serde(default)]
+    pub reference_se: f64,
     /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
     pub deciles: Vec<EstimateBin>,
     /// Pixel-channels whose estimate is not finite, over all replicates.

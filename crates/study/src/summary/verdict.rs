@@ -42,32 +42,6 @@ words! {
 }
 
 words! {
-    /// A measured rate of violations beside the rate that a bound promises.
-    BoundState {
-        /// The interval is below the promised rate or reaches it.
-        Holds = "holds",
-        /// The interval is above it.
-        Fails = "fails",
-        /// There is no interval.
-        Undecided = "undecided",
-    }
-}
-
-words! {
-    /// A method's estimate of its own error beside the measured one.
-    Calibration {
-        /// The interval contains equality.
-        Calibrated = "calibrated",
-        /// It estimates too small an error.
-        Optimistic = "too optimistic",
-        /// It estimates too large an error.
-        Pessimistic = "too pessimistic",
-        /// There is no interval.
-        Undecided = "undecided",
-    }
-}
-
-words! {
     /// Our ratio of two errors beside the one that the source work reports.
     Agreement {
         /// Our interval meets the source's range, and not 1 as well where that does not.
@@ -95,10 +69,10 @@ mod tests {
 
     #[test]
     fn a_word_is_the_same_on_disk_and_for_people() {
-        for word in [Calibration::Optimistic, Calibration::Undecided] {
+        for word in [Agreement::LargerGain, Agreement::Undecided] {
             let on_disk = serde_json::to_string(&word).unwrap();
             assert_eq!(on_disk, format!("\"{word}\""));
-            assert_eq!(serde_json::from_str::<Calibration>(&on_disk).unwrap(), word);
+            assert_eq!(serde_json::from_str::<Agreement>(&on_disk).unwrap(), word);
         }
         assert!(serde_json::from_str::<Status>("\"lost\"").is_err());
     }

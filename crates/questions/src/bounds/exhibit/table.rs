@@ -4,6 +4,7 @@ use noisefloor_study::exhibit::{Column, Number, Part, Table, TableCell, TableRow
 use noisefloor_study::format;
 use noisefloor_study::summary::BoundSummary;
 
+use super::super::analyse::id_of;
 use crate::charts::distinct;
 use crate::shown;
 use crate::view::View;
@@ -98,19 +99,18 @@ fn row(view: &View<'_>, p: &Promise<'_>, by_class: bool) -> TableRow {
     cells.push(TableCell::text(format::percent_short(p.alpha)).number(Number::exact(p.alpha)));
     cells.extend(p.found.iter().map(|found| {
         let Some(b) = found else { return TableCell::none() };
-        if by_class { rate(b) } else { rate(b).about(details(b)) }
+        if by_class { rate(b) } else { shown::judged(rate(b).about(details(b)), view.claim(&id_of(b))) }
     }));
     TableRow::new(cells)
 }
 
-/// One measured rate with what it says of the promise.
+/// One measured rate.
 fn rate(b: &BoundSummary) -> TableCell {
     let mut cell = shown::fraction(&b.violations);
     if b.mark.is_some() {
         cell.text += " *";
     }
-    let tone = shown::tone(b.verdict);
-    cell.tag(b.verdict.name(), tone, "").tone(tone)
+    cell
 }
 
 /// Uncorrected rate, share of missed events, looseness: shown on demand.

@@ -1,4 +1,4 @@
-use noisefloor_stats::Verdict;
+use noisefloor_stats::Trend;
 use noisefloor_study::exhibit::{Column, Exhibit, Part, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 use noisefloor_study::summary::SlopeSummary;
@@ -40,7 +40,7 @@ fn tables(view: &View<'_>, metric: &str) -> Vec<Part> {
             columns: vec![
                 Column::text("Method"),
                 Column::number("Slope"),
-                Column::text("Verdict"),
+                Column::text("Trend"),
                 Column::text("In words"),
             ],
             rows: here.map(|s| row(view, s)).collect(),
@@ -58,9 +58,9 @@ fn row(view: &View<'_>, s: &SlopeSummary) -> TableRow {
         sentence = format!("levels off at {}", format::interval(bias).line());
     }
     let tone = match s.verdict {
-        Verdict::Consistent => Tone::Good,
-        Verdict::Plateaus => Tone::Bad,
-        Verdict::Undecided => Tone::Plain,
+        Trend::Plateaus => Tone::Bad,
+        // No sign of a floor on these levels shows nothing for certain.
+        Trend::Consistent | Trend::Undecided => Tone::Plain,
     };
     TableRow::new(vec![
         view.row_cell(&s.label),

@@ -4,6 +4,8 @@ use noisefloor_study::exhibit::{Column, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
 use noisefloor_study::summary::CoverageSummary;
 
+use super::super::claims::id_of;
+use crate::cell::ALL;
 use crate::charts::distinct_values;
 use crate::shown;
 use crate::view::View;
@@ -25,10 +27,12 @@ pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<C
         return None;
     }
     let keys: BTreeSet<(&str, u32)> = all.iter().map(|c| (c.class.as_str(), c.spp)).collect();
+    let label = view.baseline().unwrap_or_default();
     let row = |(class, spp): (&'a str, u32)| {
         let here: Vec<&CoverageSummary> =
             all.iter().filter(|c| c.class == class && c.spp == spp).copied().collect();
-        let mut cells: Vec<TableCell> = nominal.iter().map(|level| cell(&here, *level)).collect();
+        let mut cells: Vec<TableCell> =
+            nominal.iter().map(|level| cell(view, label, &here, *level)).collect();
         // The split does not depend on the nominal level, except through the reference's noise.
         let first = here.first();
         cells.push(first.map(|c| shown::share(c.constant)).unwrap_or_default());
@@ -40,14 +44,19 @@ pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<C
     Some(Covered { nominal, rows, marks })
 }
 
-fn cell(here: &[&CoverageSummary], nominal: f64) -> TableCell {
+/// The share covered of all pixels, and the verdict, which is about those with s > 0.
+fn cell(view: &View<'_>, label: &str, here: &[&CoverageSummary], nominal: f64) -> TableCell {
     let Some(c) = here.iter().find(|c| c.confidence == nominal) else { return TableCell::default() };
     let mut cell = shown::fraction(&c.covered);
     if c.mark.is_some() {
         cell.text += " *";
     }
     let raw = format::percent(c.covered_uncorrected.value);
-    cell.about(format!("Without the allowance for the reference's noise: {raw}"))
+    let of_varying = c.varying.as_ref().map_or_else(String::new, |share| {
+        format!("; of pixels with s > 0: {}", format::percent_interval(share).line())
+    });
+    let cell = cell.about(format!("Without the allowance for the reference's noise: {raw}{of_varying}"));
+    if c.class == ALL { shown::judged(cell, view.claim(&id_of(c, label))) } else { cell }
 }
 
 /// The table of all pixels, and behind a line those by class.

@@ -1,7 +1,9 @@
-use noisefloor_study::exhibit::{Column, Part, Table, TableCell, TableRow, Tone};
+use noisefloor_stats::Verdict;
+use noisefloor_study::exhibit::{Column, Part, Table, TableCell, TableRow};
 use noisefloor_study::format;
-use noisefloor_study::summary::{Calibration, EstimateSummary, SceneSummary};
+use noisefloor_study::summary::{EstimateSummary, SceneSummary};
 
+use super::super::analyse::id;
 use crate::shown;
 use crate::view::View;
 
@@ -24,12 +26,13 @@ fn table(view: &View<'_>, id: String, estimates: &[&EstimateSummary], by_class: 
     let mut columns = vec![Column::number("spp").unit("spp"), Column::text("Method")];
     columns.extend(by_class.then(|| Column::text("Class")));
     columns.extend(["Estimated", "Measured", "Ratio"].map(Column::number));
-    columns.push(Column::text("Verdict"));
+    columns.push(Column::text("Trend"));
     let row = |e: &&EstimateSummary| {
         let mut cells = vec![TableCell::count(e.spp.into()), view.row_cell(&e.label)];
         cells.extend(by_class.then(|| TableCell::text(&e.class)));
         cells.extend([shown::value(&e.estimated), shown::value(&e.measured), effect(e)]);
-        cells.push(TableCell::text(e.verdict.name()).tone(tone(e.verdict)).aside(note(e)));
+        let verdict = if by_class { TableCell::default() } else { word(view, e) };
+        cells.push(verdict.aside(note(e)));
         TableRow::new(cells)
     };
     Table { id, columns, rows: estimates.iter().map(row).collect(), ..Table::default() }
@@ -40,13 +43,16 @@ pub(in crate::own_error) fn effect(e: &EstimateSummary) -> TableCell {
     shown::effect(shown::value(&e.effect), e.is_ratio)
 }
 
-fn tone(verdict: Calibration) -> Tone {
-    match verdict {
-        Calibration::Calibrated => Tone::Good,
-        // A method that claims less error than it has misleads; one that claims more is merely cautious.
-        Calibration::Optimistic => Tone::Bad,
-        Calibration::Pessimistic | Calibration::Undecided => Tone::Plain,
-    }
+/// The verdict, and on which side a refuted estimate errs.
+fn word(view: &View<'_>, e: &EstimateSummary) -> TableCell {
+    let claim = view.claim(&id(&e.scene, e.spp, &e.label));
+    let side = match claim {
+        Some(claim) if claim.verdict == Verdict::Refuted && e.effect.value < 1.0 => ": too optimistic",
+        Some(claim) if claim.verdict == Verdict::Refuted => ": too pessimistic",
+        _ => "",
+    };
+    let cell = shown::word(claim);
+    TableCell { text: format!("{}{side}", cell.text), ..cell }
 }
 
 /// Which image it is about, and what is left out.

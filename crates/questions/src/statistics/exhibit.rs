@@ -1,0 +1,103 @@
+//! What a reader sees: claim, evidence, verdict, what would change it.
+
+use noisefloor_study::exhibit::{Column, Exhibit, Number, Part, Table, TableCell, TableRow};
+use noisefloor_study::format;
+use noisefloor_study::summary::{ClaimSummary, Scale};
+
+use super::ID;
+use crate::shown;
+use crate::view::View;
+
+const NOTE: &str = "Shown: the 95 % interval of the effect lies where the claim says. Refuted: it lies outside, and stays there beside \
+    all other claims of this page (Holm's rule). Not shown: neither, so nothing is proved either way; the last column says what would \
+    decide it. The unit of evidence is the replicate; the level is 95 % everywhere on this page.";
+
+pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
+    if view.summary.claims.is_empty() {
+        return Vec::new();
+    }
+    let mut parts = vec![Part::Note(NOTE.into()), Part::Note(family(view))];
+    for (question, title) in KINDS {
+        let claims = view.summary.claims.iter().filter(|claim| claim.id.question == question);
+        let rows: Vec<TableRow> = claims.map(|claim| row(view, claim)).collect();
+        if !rows.is_empty() {
+            parts.push(Part::Heading(title.into()));
+            parts.push(Part::Table(table(question, rows)));
+        }
+    }
+    let title = "Statistics: claims, evidence, verdicts".into();
+    vec![Exhibit { id: ID.into(), name: "Statistics".into(), title, parts }]
+}
+
+/// Questions whose claims are judged, in the order of the page, with their headings.
+const KINDS: [(&str, &str); 5] = [
+    ("coverage", "The input's confidence intervals"),
+    ("bounds", "Error bounds"),
+    ("own_error", "Methods' estimates of their own error"),
+    ("convergence", "Convergence of the input"),
+    ("paper", "What the source work reports"),
+];
+
+fn family(view: &View<'_>) -> String {
+    let family = view.summary.family;
+    format!(
+        "{} of {} claims with an interval are refuted if each is taken alone; {} would be by chance, if all held at the edge of what they \
+         claim.",
+        family.refuted_alone,
+        family.tested,
+        format::significant(family.by_chance, 2)
+    )
+}
+
+fn table(question: &str, rows: Vec<TableRow>) -> Table {
+    let columns = vec![
+        Column::text("Scene"),
+        Column::number("spp").unit("spp"),
+        Column::text("Row"),
+        Column::text("Claim"),
+        Column::text("Claimed"),
+        Column::number("Measured"),
+        Column::number("Replicates"),
+        Column::text("Verdict"),
+        Column::number("p (Holm)"),
+        Column::text("What would change it"),
+    ];
+    Table { id: format!("claims-{question}"), columns, rows, ..Table::default() }
+}
+
+fn row(view: &View<'_>, claim: &ClaimSummary) -> TableRow {
+    let spp = claim.id.spp.map_or_else(TableCell::none, |spp| TableCell::count(spp.into()));
+    let p = claim.p_adjusted.map_or_else(TableCell::none, |p| {
+        let alone = claim.p.map_or_else(String::new, |p| format!("alone {}", shown::probability(p)));
+        TableCell::text(shown::probability(p)).number(Number::exact(p)).about(alone)
+    });
+    TableRow::new(vec![
+        TableCell::text(view.scene_title(&claim.id.scene)),
+        spp,
+        view.row_cell(&claim.id.label),
+        TableCell::text(&claim.sentence),
+        TableCell::text(shown::region(claim)),
+        measured(claim),
+        TableCell::count(claim.effect.n.into()),
+        shown::word(Some(claim)),
+        p,
+        TableCell::text(shown::changed_by(claim)),
+    ])
+}
+
+/// The effect with its interval; where the reference's noise matters, what it would be without the allowance.
+fn measured(claim: &ClaimSummary) -> TableCell {
+    let cell = match claim.scale {
+        Scale::Share => shown::fraction(&claim.effect),
+        Scale::Ratio => shown::ratio(&claim.effect),
+        Scale::Number => shown::value(&claim.effect),
+    };
+    match &claim.uncorrected {
+        Some(raw) => {
+            let raw =
+                format!("{} without the allowance for the reference", shown::number(claim.scale, raw.value));
+            TableCell { aside: shown::joined(&[&cell.aside, &raw], "; "), ..cell }
+        }
+        None => cell,
+    }
+}

@@ -1,0 +1,79 @@
+use serde::{Deserialize, Serialize};
+
+use super::{Evidence, Region};
+use crate::normal_quantile;
+
+/// What would decide a claim that is not shown, if the estimate stays where it is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "what", content = "count")]
+pub enum Needed {
+    /// It is decided.
+    Nothing,
+    /// An interval: a second replicate.
+    Interval,
+    /// So many replicates.
+    Replicates(u32),
+    /// A longer reference: its noise alone is more than the distance to a decision.
+    Reference,
+    /// More replicates than anybody renders: the estimate lies at the edge of the region.
+    TooMany,
+}
+
+/// Beyond this nobody goes.
+const MOST: u32 = 10_000;
+
+/// The replicates at which the interval is as wide as the margin: t·√(s²/R + common²), s² what replicates add.
+pub(super) fn needed(effect: &Evidence, region: Region) -> Needed {
+    let Some(margin) = region.margin(effect.estimate) else { return Needed::Reference };
+    if effect.replicates < 2 {
+        return Needed::Interval;
+    }
+    if normal_quantile(effect.level) * effect.common > margin {
+        return Needed::Reference;
+    }
+    // At least 0: the common part is one of the two whose squares make the standard error.
+    let own = (effect.standard_error.powi(2) - effect.common.powi(2)).max(0.0) * f64::from(effect.replicates);
+    let wide = |replicates: u32| {
+        let se = (own / f64::from(replicates)).sqrt().hypot(effect.common);
+        effect.critical(replicates) * se > margin
+    };
+    if wide(MOST) {
+        return Needed::TooMany;
+    }
+    // The width falls with the replicates: the first that is enough lies between these.
+    let (mut few, mut enough) = (effect.replicates, MOST);
+    while enough - few > 1 {
+        let middle = few + (enough - few) / 2;
+        if wide(middle) { few = middle } else { enough = middle }
+    }
+    Needed::Replicates(enough)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Level, replicate_interval, t_quantile};
+
+    #[test]
+    fn as_many_replicates_are_needed_as_make_the_interval_as_wide_as_the_margin() {
+        let level = Level::TWO_SIDED_95;
+        let interval = replicate_interval(&[0.9, 1.1, 1.05, 0.95], 0.0, level).unwrap();
+        let effect = Evidence::of(&interval, 0.0);
+        let Needed::Replicates(count) = needed(&effect, Region { low: 0.95, high: 2.0 }) else { panic!() };
+        let spread = interval.standard_error.unwrap() * 2.0;
+        let half = |n: u32| t_quantile(level, u64::from(n) - 1) * spread / f64::from(n).sqrt();
+        assert!(half(count) <= 0.05 && half(count - 1) > 0.05, "{count}");
+    }
+
+    #[test]
+    fn no_replicates_help_against_the_noise_of_the_reference() {
+        let interval = replicate_interval(&[0.9, 1.1, 1.05, 0.95], 0.2, Level::TWO_SIDED_95).unwrap();
+        let region = Region { low: 0.95, high: 2.0 };
+        assert_eq!(needed(&Evidence::of(&interval, 0.2), region), Needed::Reference);
+        let one = replicate_interval(&[1.0], 0.0, Level::TWO_SIDED_95).unwrap();
+        assert_eq!(needed(&Evidence::of(&one, 0.0), region), Needed::Interval);
+        let edge = Region { low: 1.0 - 1e-9, high: 2.0 };
+        let interval = replicate_interval(&[0.9, 1.1, 1.05, 0.95], 0.0, Level::TWO_SIDED_95).unwrap();
+        assert_eq!(needed(&Evidence::of(&interval, 0.0), edge), Needed::TooMany);
+    }
+}
