@@ -4,6 +4,7 @@ mod cell;
 mod claim;
 mod denoise;
 mod inputs;
+mod levels;
 mod prepare;
 mod request;
 mod runner;

@@ -11,8 +11,9 @@ use noisefloor_study::{Bits, Key, key_of};
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
 use serde_json::{Value, json};
 
-use crate::cell::{Measure, PixelClasses};
+use crate::cell::{Measure, MeasureError, PixelClasses};
 use crate::error::{BOOTSTRAP_IMAGES, ratio_within_se};
+use crate::level::{LevelCell, LevelFrame, Outputs, measure_level};
 
 /// Hash of all that the measuring of a cell gives on a fixed frame, output and truth, for each way in which a truth states
 /// its noise: metrics, their standard errors, classes, coverage, bounds, enclosures, estimates of error.
@@ -22,6 +23,50 @@ pub fn measuring() -> &'static str {
         // Nothing here can fail but for a mistake in this file, which its test would show.
         everything().map_or_else(|error| format!("none: {error}"), |all| key_of(&all))
     })
+}
+
+/// Hash of all that the measuring of a level gives on two fixed frames and their outputs, for each way in which a truth
+/// states its noise.
+pub fn measuring_of_levels() -> &'static str {
+    static MEASURING: OnceLock<Key> = OnceLock::new();
+    MEASURING.get_or_init(|| levels().map_or_else(|error| format!("none: {error}"), |all| key_of(&all)))
+}
+
+fn levels() -> Result<Value, Wrong> {
+    let (frame, image, references) = fixed()?;
+    let mut other = frame.clone();
+    other.color.mean = other.color.mean.map(|v| 1.01 * v);
+    let frames = [(0, frame), (1, other)];
+    let frames = frames.map(|(replicate, frame)| LevelFrame { replicate, frame, invalid: Vec::new() });
+    let rows = [noisefloor_study::BASELINE.to_owned(), "row".to_owned()];
+    let outputs = |label: &str| -> Outputs {
+        let of = |f: &LevelFrame| (f.replicate, f.frame.color.mean.clone());
+        let filtered = |k: u32| (k, image.map(|v| v + 0.01 * k as f32));
+        if label == rows[0] { frames.iter().map(of).collect() } else { (0..2).map(filtered).collect() }
+    };
+    let study = noisefloor_study::Study::plain("fixed".into(), vec![8], Vec::new(), Vec::new());
+    let mut out = Vec::new();
+    for reference in &references {
+        let classes = PixelClasses::from_reference(reference);
+        let level = LevelCell {
+            study: &study,
+            spp: 8,
+            reference,
+            classes: &classes,
+            frames: &frames,
+            rows: &rows,
+            outputs: &outputs,
+        };
+        let found = measure_level(&level)?;
+        let mut bits = Bits::of("maps");
+        for map in &found.maps {
+            bits.text(&map.label);
+            bits.text(&map.name);
+            bits.image(&map.image);
+        }
+        out.push(json!([found.answers, bits.finish()]));
+    }
+    Ok(json!(out))
 }
 
 /// The same for a metric that is measured on request alone: its numbers, those of classes and its spread.
@@ -60,6 +105,8 @@ enum Wrong {
     Metric(#[from] MetricError),
     #[error(transparent)]
     Shape(#[from] ShapeError),
+    #[error(transparent)]
+    Measure(#[from] MeasureError),
 }
 
 fn everything() -> Result<Value, Wrong> {

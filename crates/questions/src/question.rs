@@ -5,6 +5,7 @@ use noisefloor_study::record::Record;
 use noisefloor_study::summary::Summary;
 
 use crate::cell::{Cell, MeasureError};
+use crate::level::{LevelCell, LevelFound};
 use crate::readme::Kind;
 use crate::records::Index;
 use crate::view::View;
@@ -18,6 +19,8 @@ pub struct Question {
     pub methodology: &'static str,
     /// Measures a finished cell, into its record.
     pub measure: fn(&Cell<'_>, &mut Record) -> Result<(), MeasureError>,
+    /// Measures all replicates of a level together, once they are there.
+    pub level: fn(&LevelCell<'_>, &mut LevelFound) -> Result<(), MeasureError>,
     /// Analyses all records, into the summary; what comes before it in [`QUESTIONS`](crate::QUESTIONS) is there already.
     pub analyse: fn(&Index<'_>, &mut Summary),
     /// The answer in a sentence or a few, for the first screen.
@@ -36,6 +39,7 @@ impl Question {
             id,
             methodology,
             measure: |_, _| Ok(()),
+            level: |_, _| Ok(()),
             analyse: |_, _| (),
             answer: |_| None,
             exhibits: |_| Vec::new(),

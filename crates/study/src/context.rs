@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_frame::{Finding, Integrator, Sampling};
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::summary::{Environment, MethodSummary};
 use crate::{Flicker, Key, Maps};
@@ -88,6 +89,23 @@ pub struct SceneContext {
     /// What was found about the scene's files or reference, apart from single frames.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub findings: Vec<Finding>,
+    /// What was measured over all replicates of each level.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub levels: Vec<LevelContext>,
+}
+
+/// What was measured over all replicates of a level.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct LevelContext {
+    /// Samples per pixel.
+    pub spp: u32,
+    /// Hash of all that determines it: frames, reference, outputs, the measuring.
+    pub key: Key,
+    /// By the question's id.
+    pub answers: BTreeMap<String, Value>,
+    /// Pictures: label of the row, then name, to the path relative to the study's folder.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub maps: BTreeMap<String, BTreeMap<String, String>>,
 }
 
 impl SceneContext {

@@ -36,6 +36,12 @@ pub fn diagnostic(scene: &str, slug: &str, spp: u32, replicate: u32, name: &str)
     format!("diagnostics/{scene}/{slug}/spp{spp:05}-r{replicate}-{name}.exr")
 }
 
+/// A picture of something that was measured over all replicates of a level.
+#[must_use]
+pub fn map(scene: &str, slug: &str, spp: u32, name: &str) -> String {
+    format!("maps/{scene}/{slug}/spp{spp:05}-{name}.exr")
+}
+
 /// What a program outside said.
 #[must_use]
 pub fn log(scene: &str, slug: &str, spp: u32, replicate: u32) -> String {

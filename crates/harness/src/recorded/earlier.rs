@@ -106,5 +106,6 @@ fn of_scene(scene: &SceneSummary, sampling: Sampling) -> SceneContext {
         files: Files::default(),
         damaged: BTreeSet::new(),
         findings: Vec::new(),
+        levels: Vec::new(),
     }
 }

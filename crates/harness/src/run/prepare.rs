@@ -106,6 +106,7 @@ pub(super) fn truth(
         files: Files::new(),
         damaged: BTreeSet::new(),
         findings,
+        levels: Vec::new(),
     };
     // With its parts: metrics that are computed again are the run's own.
     let (image, map) = (files::reference(&scene.id), files::classes(&scene.id));

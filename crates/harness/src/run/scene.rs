@@ -12,6 +12,7 @@ use crate::error::HarnessError;
 use crate::observer::Stage;
 use crate::run::cell::OnFrame;
 use crate::run::inputs::Inputs;
+use crate::run::levels;
 use crate::run::prepare::{damaged_files, kept_context, truth};
 use crate::run::runner::Runner;
 use crate::store::Records;
@@ -24,9 +25,11 @@ pub(super) fn run(
 ) -> Result<SceneContext, HarnessError> {
     let scene = runner.scene();
     let work = runner.plan.work(runner.place, kept);
+    let (earlier, hashes) = levels::earlier(runner.layout, scene);
     if work.is_empty()
-        && let Some(context) = kept_context(runner.layout, scene)
+        && let Some(mut context) = kept_context(runner.layout, scene)
     {
+        levels::settle(runner, records, None, earlier, &mut context)?;
         return Ok(context);
     }
     for file in damaged_files(runner.layout, scene) {
@@ -34,6 +37,7 @@ pub(super) fn run(
         runner.request.observer.warning(&text);
     }
     let (truth, mut context) = truth(scene, runner.cache, runner.layout, runner.request.observer)?;
+    context.files.extend(hashes);
     let asked = metric::asked(&runner.request.study.metrics);
     let measurer = truth.measurer(scene)?.with(&asked);
     let mut inputs = Inputs::open(scene, runner.layout, &truth.reference, &mut context);
@@ -96,6 +100,8 @@ pub(super) fn run(
             runner.request.observer.cell(&record, &record.outcome);
         }
     }
+    let prepared = Some((&truth.reference, &truth.classes));
+    levels::settle(runner, records, prepared, earlier, &mut context)?;
     Ok(context)
 }
 

@@ -64,8 +64,15 @@ impl Layout {
     /// Removes what killed processes left half written in the folders of a study, and nothing in others that stand beside
     /// them; for whoever holds the lock.
     pub(crate) fn sweep(&self) {
-        let folders =
-            [("", 0), ("reference", 0), ("images", 2), ("diagnostics", 2), ("logs", 2), ("report", 1)];
+        let folders = [
+            ("", 0),
+            ("reference", 0),
+            ("images", 2),
+            ("diagnostics", 2),
+            ("maps", 2),
+            ("logs", 2),
+            ("report", 1),
+        ];
         for (folder, depth) in folders {
             sweep(&self.root.join(folder), depth, Duration::ZERO);
         }

@@ -53,6 +53,12 @@ fn summary(scene: &SceneContext, records: &[Record]) -> SceneSummary {
             of_row.insert(record.spp, record.diagnostics.clone());
         }
     }
+    for level in &scene.levels {
+        for (label, maps) in &level.maps {
+            let of_row = diagnostics.entry(label.clone()).or_default();
+            of_row.entry(level.spp).or_default().extend(maps.clone());
+        }
+    }
     let mut render_seconds = BTreeMap::new();
     for &spp in scene.replicates.keys() {
         // All rows of the study's own frames carry the same time; one per replicate is enough.

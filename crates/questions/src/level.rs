@@ -1,0 +1,86 @@
+//! What questions measure over all replicates of a level: frames and outputs beside each other and their truth.
+
+use std::collections::BTreeMap;
+
+use noisefloor_frame::{Frame, Image, Reference};
+use noisefloor_study::Study;
+use serde_json::Value;
+
+use crate::cell::{Measure, MeasureError, PixelClasses};
+use crate::list::QUESTIONS;
+
+/// One of a level's frames, the study's own of a replicate.
+#[derive(Debug)]
+pub struct LevelFrame {
+    /// Its number.
+    pub replicate: u32,
+    /// The frame, mended.
+    pub frame: Frame,
+    /// Flags the pixels that were not finite on input; empty for none.
+    pub invalid: Vec<bool>,
+}
+
+/// Outputs of a row, by replicate; nothing where they cannot be read.
+pub type Outputs = Vec<(u32, Image)>;
+
+/// A level of a scene with all its replicates.
+#[derive(Clone, Copy)]
+pub struct LevelCell<'a> {
+    /// The study that asks.
+    pub study: &'a Study,
+    /// Samples per pixel.
+    pub spp: u32,
+    /// The truth.
+    pub reference: &'a Reference,
+    /// What to tell apart.
+    pub classes: &'a PixelClasses,
+    /// The study's own frames, by replicate.
+    pub frames: &'a [LevelFrame],
+    /// Labels of the rows that have outputs here, in the order of the study.
+    pub rows: &'a [String],
+    /// Reads a row's outputs, those that are there.
+    pub outputs: &'a dyn Fn(&str) -> Outputs,
+}
+
+impl std::fmt::Debug for LevelCell<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("LevelCell").field("spp", &self.spp).field("rows", &self.rows).finish_non_exhaustive()
+    }
+}
+
+impl LevelCell<'_> {
+    /// Each frame against the truth.
+    pub(crate) fn measures(&self) -> impl Iterator<Item = Measure<'_>> {
+        self.frames.iter().map(|f| Measure::new(&f.frame, self.reference, self.classes, &f.invalid, false))
+    }
+}
+
+/// A picture of something, such as where coverage is lost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Label of the row that it is about.
+    pub label: String,
+    /// What it shows, for people.
+    pub name: String,
+    /// The picture.
+    pub image: Image,
+}
+
+/// What was measured of a level.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct LevelFound {
+    /// By the question's id.
+    pub answers: BTreeMap<String, Value>,
+    /// Pictures for the viewer.
+    pub maps: Vec<Map>,
+}
+
+/// Puts every question to a level.
+///
+/// # Errors
+/// Of the first question that cannot be measured.
+pub fn measure_level(level: &LevelCell<'_>) -> Result<LevelFound, MeasureError> {
+    let mut found = LevelFound::default();
+    QUESTIONS.iter().try_for_each(|question| (question.level)(level, &mut found))?;
+    Ok(found)
+}
