@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod binomial;
 mod bounds;
 mod compare;
 mod convergence;
@@ -15,6 +16,7 @@ mod observed;
 mod paired;
 mod pareto;
 mod plateau;
+mod pmf;
 mod proportion;
 mod share;
 mod slope;
@@ -22,6 +24,7 @@ mod student;
 
 pub mod random;
 
+pub use binomial::{BinomialError, MOST_TRIALS, binomial_p_against, binomial_two_sided_p, clopper_pearson};
 pub use bounds::{BoundTally, BoundVerdict, bound_verdict, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
 pub use convergence::{Convergence, Verdict, convergence};
