@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod band;
 mod binomial;
 mod bounds;
 mod compare;
@@ -16,6 +17,7 @@ mod monte_carlo;
 mod observed;
 mod paired;
 mod pareto;
+mod pit;
 mod plateau;
 mod pmf;
 mod proportion;
@@ -25,6 +27,7 @@ mod student;
 
 pub mod random;
 
+pub use band::{BandError, EcdfBand, ecdf};
 pub use binomial::{BinomialError, MOST_TRIALS, binomial_p_against, binomial_two_sided_p, clopper_pearson};
 pub use bounds::{BoundTally, BoundVerdict, bound_verdict, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
@@ -41,6 +44,7 @@ pub use monte_carlo::{MonteCarloFit, monte_carlo_constant};
 pub use observed::{Groups, Observed, SampleCounts, ShapeError, Truth};
 pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};
 pub use pareto::pareto_front;
+pub use pit::{Pit, PitError, pit};
 pub use plateau::{Plateau, plateau};
 pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_error};
 pub use share::ReferenceShare;
