@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod band;
+mod bias_variance;
 mod binomial;
 mod bounds;
 mod compare;
@@ -28,6 +29,10 @@ mod student;
 pub mod random;
 
 pub use band::{BandError, EcdfBand, ecdf};
+pub use bias_variance::{
+    BiasReference, BiasVariance, BiasVarianceError, BiasVarianceMaps, BiasVarianceTotal, Estimated,
+    ReferenceNoise, Replicates, bias_variance,
+};
 pub use binomial::{BinomialError, MOST_TRIALS, binomial_p_against, binomial_two_sided_p, clopper_pearson};
 pub use bounds::{BoundTally, BoundVerdict, bound_verdict, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
