@@ -1,5 +1,8 @@
 #![doc = include_str!("../README.md")]
 
+mod band;
+mod bias_variance;
+mod binomial;
 mod bounds;
 mod compare;
 mod convergence;
@@ -8,13 +11,16 @@ mod enclosure;
 mod equal_error;
 mod holm;
 mod interval;
+mod leave_one_out;
 mod level;
 mod levels;
 mod monte_carlo;
 mod observed;
 mod paired;
 mod pareto;
+mod pit;
 mod plateau;
+mod pmf;
 mod proportion;
 mod share;
 mod slope;
@@ -23,6 +29,12 @@ mod verdict;
 
 pub mod random;
 
+pub use band::{BandError, EcdfBand, ecdf};
+pub use bias_variance::{
+    BiasReference, BiasVariance, BiasVarianceError, BiasVarianceMaps, BiasVarianceTotal, Estimated,
+    ReferenceNoise, Replicates, bias_variance,
+};
+pub use binomial::{BinomialError, MOST_TRIALS, binomial_p_against, binomial_two_sided_p, clopper_pearson};
 pub use bounds::{BoundTally, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
 pub use convergence::{Convergence, Trend, convergence};
@@ -31,12 +43,14 @@ pub use enclosure::{Enclosure, enclosure};
 pub use equal_error::{Multiplier, equal_error_multiplier};
 pub use holm::holm_adjusted;
 pub use interval::{Interval, replicate_interval};
+pub use leave_one_out::{LeaveOneOutError, LeaveOneOutTally, leave_one_out};
 pub use level::{Level, LevelError, Sides};
 pub use levels::Levels;
 pub use monte_carlo::{MonteCarloFit, monte_carlo_constant};
 pub use observed::{Groups, Observed, SampleCounts, ShapeError, Truth};
 pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};
 pub use pareto::pareto_front;
+pub use pit::{Pit, PitError, pit};
 pub use plateau::{Plateau, plateau};
 pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_error};
 pub use share::ReferenceShare;

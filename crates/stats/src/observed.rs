@@ -118,7 +118,7 @@ impl Truth<'_> {
 }
 
 /// More groups than a map of bytes can name have no members.
-const LARGEST_GROUPS: usize = 256;
+pub(crate) const LARGEST_GROUPS: usize = 256;
 
 /// Counts that can be added up.
 pub(crate) trait Tally: Default + Clone {
