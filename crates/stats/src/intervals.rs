@@ -16,6 +16,8 @@ mod pooled;
 mod rare_event;
 mod skewness;
 mod student;
+#[cfg(test)]
+mod tests;
 mod window;
 
 pub use family::{IntervalFamily, IntervalNeed};

@@ -13,8 +13,9 @@ use crate::{Level, ShapeError};
 ///   g(T) = T + a·T²/3 + a²·T³/27 + a/6 = ((1 + a·T/3)³ − 1)/a + a/6,
 ///   g⁻¹(y) = 3·(∛(1 + x) − 1)/a  with x = a·(y − a/6).
 ///
-/// μ is between x̄ − (s/√n)·g⁻¹(t) and x̄ − (s/√n)·g⁻¹(−t). Hall takes the normal quantile; that of t with n−1 degrees of
-/// freedom, which is the same for many samples, makes it the t-interval where the samples are not skewed.
+/// μ is between x̄ − (s/√n)·g⁻¹(t) and x̄ − (s/√n)·g⁻¹(−t). Hall takes the normal quantile, and s and γ̂ of moments over n; the
+/// quantile of t with n−1 degrees of freedom makes it the t-interval where the samples are not skewed, and the unbiased
+/// moments that frames carry make γ̂ larger by √(n·(n−1))/(n−2). For many samples that is the same.
 #[derive(Debug)]
 pub(super) struct Hall;
 

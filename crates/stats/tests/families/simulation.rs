@@ -79,20 +79,16 @@ pub struct Count {
     covered: u64,
     below: u64,
     above: u64,
-    squares: f64,
 }
 
 impl Count {
     pub fn add(&mut self, image: &Image, intervals: &IntervalPlanes) {
         let ends = image.truth.iter().zip(&intervals.low).zip(&intervals.high);
-        let mut covered = 0;
         for ((truth, low), high) in ends {
             self.below += u64::from(truth < low);
             self.above += u64::from(truth > high);
-            covered += u64::from(low <= truth && truth <= high);
+            self.covered += u64::from(low <= truth && truth <= high);
         }
-        self.covered += covered;
-        self.squares += (covered as f64).powi(2);
         self.images += 1;
     }
 
@@ -103,17 +99,5 @@ impl Count {
     /// Share of truths inside, below the interval, above it.
     pub fn shares(&self) -> [f64; 3] {
         [self.covered, self.below, self.above].map(|of| self.share(of))
-    }
-
-    /// Standard error of the share inside. Pixels whose intervals use their neighbours are not independent of each other:
-    /// then it comes from the spread between images.
-    pub fn standard_error(&self, neighbours: bool) -> f64 {
-        let (rate, images) = (self.share(self.covered), self.images as f64);
-        if !neighbours {
-            return (rate * (1.0 - rate) / (images * PIXELS as f64)).sqrt();
-        }
-        let pixels = PIXELS as f64;
-        let spread = self.squares / (images * pixels * pixels) - rate * rate;
-        (spread.max(0.0) / (images - 1.0)).sqrt()
     }
 }
