@@ -1,11 +1,15 @@
-//! Coverage of the t-intervals of sample means (moon2013flash, Table 1).
+//! Coverage of the intervals of sample means (of t-intervals: moon2013flash, Table 1).
+
+#[cfg(test)]
+mod tests;
 
 use serde::{Deserialize, Serialize};
 
-use crate::observed::{Tally, rounding, tally};
-use crate::{Groups, Level, Observed, ShapeError, Truth, normal_quantile};
+use crate::observed::{Tally, expect, rounding, tally};
+use crate::{Groups, IntervalPlanes, Level, Observed, ShapeError, Truth, normal_quantile};
 
-/// Counts over pixel-channels.
+/// Counts over pixel-channels. A miss is on one side: `covered`, `truth_above` and `truth_below` add up to `total`, and so do
+/// the three without allowance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CoverageTally {
     /// With s > 0.
@@ -14,9 +18,21 @@ pub struct CoverageTally {
     pub covered: u64,
     /// Of those: covered without that allowance.
     pub covered_uncorrected: u64,
-    /// With s = 0 and a mean that agrees with the truth within its noise.
+    /// Of those: the truth lies above the interval, allowing for its noise.
+    #[serde(default)]
+    pub truth_above: u64,
+    /// Of those: the truth lies above the interval, without that allowance.
+    #[serde(default)]
+    pub truth_above_uncorrected: u64,
+    /// Of those: the truth lies below the interval, allowing for its noise.
+    #[serde(default)]
+    pub truth_below: u64,
+    /// Of those: the truth lies below the interval, without that allowance.
+    #[serde(default)]
+    pub truth_below_uncorrected: u64,
+    /// With s = 0 and an interval that covers the truth, allowing for its noise: a t-interval is then the mean alone.
     pub constant: u64,
-    /// With s = 0 and a mean that does not: all samples missed the event.
+    /// With s = 0 and an interval that does not: all samples missed the event.
     pub missed: u64,
 }
 
@@ -32,6 +48,26 @@ impl CoverageTally {
     pub fn rate(&self) -> Option<f64> {
         (self.all() > 0).then(|| (self.covered + self.constant) as f64 / self.all() as f64)
     }
+
+    /// Counts one pixel-channel.
+    fn count(&mut self, varies: bool, uncorrected: Side, corrected: Side) {
+        if !varies {
+            let counted = if corrected == Side::Inside { &mut self.constant } else { &mut self.missed };
+            *counted += 1;
+            return;
+        }
+        self.total += 1;
+        *match corrected {
+            Side::Inside => &mut self.covered,
+            Side::Above => &mut self.truth_above,
+            Side::Below => &mut self.truth_below,
+        } += 1;
+        *match uncorrected {
+            Side::Inside => &mut self.covered_uncorrected,
+            Side::Above => &mut self.truth_above_uncorrected,
+            Side::Below => &mut self.truth_below_uncorrected,
+        } += 1;
+    }
 }
 
 impl Tally for CoverageTally {
@@ -39,18 +75,51 @@ impl Tally for CoverageTally {
         self.total += other.total;
         self.covered += other.covered;
         self.covered_uncorrected += other.covered_uncorrected;
+        self.truth_above += other.truth_above;
+        self.truth_above_uncorrected += other.truth_above_uncorrected;
+        self.truth_below += other.truth_below;
+        self.truth_below_uncorrected += other.truth_below_uncorrected;
         self.constant += other.constant;
         self.missed += other.missed;
     }
 }
 
-/// Counts pixel-channels whose interval at `level` covers the truth, for all pixels (index 0) and each group
-/// (1 + group).
+/// Where the truth lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Below,
+    Inside,
+    Above,
+}
+
+/// A truth r beside an interval from x̄ − below to x̄ + above, each end moved outwards as if the noise of the truth were
+/// one more error in quadrature, and by what rounding may move both numbers.
+fn side(mean: f64, r: f64, [below, above]: [f64; 2], allowance: f64) -> Side {
+    let rounding = rounding(mean, r);
+    if (r - mean) - rounding > widened(above, allowance) {
+        Side::Above
+    } else if (mean - r) - rounding > widened(below, allowance) {
+        Side::Below
+    } else {
+        Side::Inside
+    }
+}
+
+/// √(d² + w²) for the distance d of an end from the mean. An end on the other side of the mean, d < 0, moves as far outwards:
+/// by √(d² + w²) − |d|.
+fn widened(distance: f64, allowance: f64) -> f64 {
+    let length = distance.hypot(allowance);
+    // The fraction has no cancellation, and below 0 no denominator of 0.
+    if distance < 0.0 { distance + allowance * allowance / (length - distance) } else { length }
+}
+
+/// Counts pixel-channels whose t-interval at `level` covers the truth, for all pixels (index 0) and each group
+/// (1 + group): [`coverage_of`] for Student's t.
 ///
 /// Covered means |x̄−r| ≤ √((t·s/√n)² + t_r²·v_r) + 4·eps·max(|x̄|,|r|), with t Student's critical value for
 /// n−1 degrees of freedom, t_r the normal one, v_r the variance of the truth and eps that of f32. Without the
 /// allowance, v_r = 0. The allowance assumes near-normal errors of both, so a noisy truth should have at
-/// least 16 times the samples.
+/// least 16 times the samples. Of an upper level this takes the critical value, on both sides of the mean.
 ///
 /// Pixels with fewer than 2 samples have no interval and are left out, like pixel-channels that are not
 /// finite.
@@ -64,12 +133,56 @@ pub fn coverage(
     groups: Option<Groups<'_>>,
 ) -> Result<Vec<CoverageTally>, ShapeError> {
     observed.check()?;
-    truth.check(observed.mean.len())?;
     let t = observed.critical_values(level);
+    count(observed, truth, level, groups, |i| {
+        let pixel = i % observed.pixels;
+        let reach = t(pixel) * f64::from(observed.variance[i]).max(0.0).sqrt();
+        (observed.count_at(pixel) >= 2).then_some([reach; 2])
+    })
+}
+
+/// Counts pixel-channels whose interval covers the truth, for all pixels (index 0) and each group (1 + group).
+///
+/// Each end is moved outwards by the noise of the truth: an end at distance d from the mean x̄ moves to √(d² + t_r²·v_r), with
+/// t_r the normal critical value of `level` and v_r the variance of the truth. For an interval of normal means with a normal
+/// truth that keeps the level on each side, and so does it for ends at different distances. Besides, 4·eps·max(|x̄|,|r|) is
+/// allowed for rounding. Uncorrected, v_r = 0.
+///
+/// A pixel-channel with s = 0 is counted apart, and judged by its interval, which families that look further than the pixel
+/// may give it. Where no end is finite there is no interval: left out, like pixel-channels that are not finite.
+///
+/// # Errors
+/// [`ShapeError`] if the slices do not belong together.
+pub fn coverage_of(
+    intervals: &IntervalPlanes,
+    observed: &Observed<'_>,
+    truth: &Truth<'_>,
+    level: Level,
+    groups: Option<Groups<'_>>,
+) -> Result<Vec<CoverageTally>, ShapeError> {
+    observed.check()?;
+    expect("lower ends", intervals.low.len(), observed.mean.len())?;
+    expect("upper ends", intervals.high.len(), observed.mean.len())?;
+    count(observed, truth, level, groups, |i| {
+        let mean = f64::from(observed.mean[i]);
+        let (below, above) = (mean - intervals.low[i], intervals.high[i] - mean);
+        (below.is_finite() || above.is_finite()).then_some([below, above])
+    })
+}
+
+/// Counts with `reach`, the distances of the lower and the upper end from the mean.
+fn count(
+    observed: &Observed<'_>,
+    truth: &Truth<'_>,
+    level: Level,
+    groups: Option<Groups<'_>>,
+    reach: impl Fn(usize) -> Option<[f64; 2]>,
+) -> Result<Vec<CoverageTally>, ShapeError> {
+    truth.check(observed.mean.len())?;
     let t_truth = normal_quantile(level);
     tally(groups, observed.pixels, |pixel| {
         let mut tally = CoverageTally::default();
-        if !observed.takes_part(pixel) || observed.count_at(pixel) < 2 {
+        if !observed.takes_part(pixel) {
             return tally;
         }
         for i in (pixel..observed.mean.len()).step_by(observed.pixels) {
@@ -78,79 +191,11 @@ pub fn coverage(
             if !(mean - r + variance + noise).is_finite() {
                 continue;
             }
-            let distance = (mean - r).abs() - rounding(mean, r);
-            let (own, allowance) = (t(pixel) * variance.sqrt(), t_truth * noise.sqrt());
-            let covered = distance <= own.hypot(allowance);
-            match (variance > 0.0, covered) {
-                (true, _) => {
-                    tally.total += 1;
-                    tally.covered += u64::from(covered);
-                    tally.covered_uncorrected += u64::from(distance <= own);
-                }
-                (false, true) => tally.constant += 1,
-                (false, false) => tally.missed += 1,
+            if let Some(reach) = reach(i) {
+                let corrected = side(mean, r, reach, t_truth * noise.sqrt());
+                tally.count(variance > 0.0, side(mean, r, reach, 0.0), corrected);
             }
         }
         tally
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::SampleCounts;
-
-    fn count(mean: &[f32], variance: &[f32], truth: &[f32], noise: Option<&[f32]>) -> CoverageTally {
-        let observed =
-            Observed { mean, variance, counts: SampleCounts::Uniform(16), pixels: mean.len(), valid: None };
-        let truth = Truth { mean: truth, variance: noise };
-        coverage(&observed, &truth, Level::TWO_SIDED_99, None).unwrap()[0]
-    }
-
-    #[test]
-    fn an_interval_ends_at_its_critical_value() {
-        // t(99 %, 15) = 2.9467, standard error 0.5.
-        let inside = count(&[1.0], &[0.25], &[1.0 + 1.4733], None);
-        assert_eq!(
-            inside,
-            CoverageTally { total: 1, covered: 1, covered_uncorrected: 1, ..Default::default() }
-        );
-        let outside = count(&[1.0], &[0.25], &[1.0 + 1.4735], None);
-        assert_eq!(outside, CoverageTally { total: 1, ..Default::default() });
-    }
-
-    #[test]
-    fn noise_of_the_truth_widens_in_quadrature() {
-        // √((2.9467·0.5)² + (2.5758·0.5)²) = 1.95690.
-        let inside = count(&[0.0], &[0.25], &[1.9568], Some(&[0.25]));
-        assert_eq!((inside.covered, inside.covered_uncorrected), (1, 0));
-        assert_eq!(count(&[0.0], &[0.25], &[1.9570], Some(&[0.25])).covered, 0);
-    }
-
-    #[test]
-    fn zero_variance_splits_into_constant_and_missed() {
-        let tally = count(&[1.0, 0.0, 0.0], &[0.0; 3], &[1.0 + 4e-7, 1.0, 1.0], Some(&[0.0, 0.01, 1.0]));
-        assert_eq!(tally, CoverageTally { constant: 2, missed: 1, ..Default::default() });
-        assert_eq!(tally.rate(), Some(2.0 / 3.0));
-    }
-
-    #[test]
-    fn channels_share_their_pixels_group_and_count() {
-        let observed = Observed {
-            mean: &[0.0; 6],
-            variance: &[1.0; 6],
-            counts: SampleCounts::PerPixel(&[1, 16]),
-            pixels: 2,
-            valid: None,
-        };
-        let truth = Truth { mean: &[2.0, 2.0, 9.0, 9.0, 2.0, 2.0], variance: None };
-        let groups = Some(Groups { of_pixel: &[0, 1], count: 2 });
-        let tallies = coverage(&observed, &truth, Level::TWO_SIDED_99, groups).unwrap();
-        assert_eq!(tallies[1], CoverageTally::default(), "one sample has no interval");
-        assert_eq!(tallies[0], tallies[2]);
-        assert_eq!((tallies[2].total, tallies[2].covered), (3, 2));
-        let short = Truth { mean: &[0.0; 5], variance: None };
-        let error = coverage(&observed, &short, Level::TWO_SIDED_99, None).unwrap_err();
-        assert_eq!(error.to_string(), "truth has 5 entries, expected 6");
-    }
 }

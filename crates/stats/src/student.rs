@@ -9,12 +9,16 @@ use crate::Level;
 /// end there.
 #[must_use]
 pub fn t_quantile(level: Level, degrees: u64) -> f64 {
+    t_beyond(level.upper_tail(), degrees)
+}
+
+/// Value that Student's t exceeds with probability `tail` in (0, 1), as [`t_quantile`].
+pub(crate) fn t_beyond(tail: f64, degrees: u64) -> f64 {
     if degrees > 1_000_000 {
-        return normal_quantile(level);
+        return normal_beyond(tail);
     }
     let degrees = degrees.max(1) as f64;
     let t = StudentsT::new(0.0, 1.0, degrees).expect("location 0, scale 1, at least one degree of freedom");
-    let tail = level.upper_tail();
     let start = t.inverse_cdf(1.0 - tail);
     // 1 − tail is 1 in floating point for the smallest tails.
     let start = if start.is_finite() { start } else { -t.inverse_cdf(tail) };
@@ -24,8 +28,12 @@ pub fn t_quantile(level: Level, degrees: u64) -> f64 {
 /// Critical value of the standard normal distribution at `level`.
 #[must_use]
 pub fn normal_quantile(level: Level) -> f64 {
+    normal_beyond(level.upper_tail())
+}
+
+/// Value that a standard normal variable exceeds with probability `tail` in (0, 1).
+pub(crate) fn normal_beyond(tail: f64) -> f64 {
     let normal = Normal::standard();
-    let tail = level.upper_tail();
     let start = normal.inverse_cdf(1.0 - tail);
     let start = if start.is_finite() { start } else { -normal.inverse_cdf(tail) };
     refine(start, tail, |x| normal.sf(x), |x| statrs::distribution::Continuous::pdf(&normal, x))

@@ -84,6 +84,11 @@ fn quantiles_and_probabilities_exist_for_every_level_and_any_number_of_samples()
     assert_eq!(serde_level(r#"{"confidence": 0.95, "sides": "two"}"#).unwrap(), Level::TWO_SIDED_95);
 }
 
+/// A plane that is there in most cases.
+fn picked(plane: &[f32], picks: &mut Picks) -> Option<Vec<f32>> {
+    (!picks.next().is_multiple_of(4)).then(|| plane.to_vec())
+}
+
 fn serde_level(text: &str) -> Result<Level, serde_json::Error> {
     serde_json::from_str(text)
 }
@@ -173,6 +178,24 @@ fn counts_over_pixels_take_anything() {
             count: if picks.next().is_multiple_of(2) { 3 } else { usize::MAX },
         };
         let _ = coverage(&observed, &truth, level, Some(groups));
+        let width = [pixels, 1, 2, 0][(picks.next() % 4) as usize];
+        let plane = |plane: &'_ Vec<f32>| picked(plane, &mut picks);
+        let [third_moment, least, greatest] = [&denoised, &noise, &variance].map(plane);
+        let planes = SamplePlanes {
+            observed,
+            width,
+            third_moment: third_moment.as_deref(),
+            least: least.as_deref(),
+            greatest: greatest.as_deref(),
+        };
+        for family in FAMILIES {
+            let Ok(Some(intervals)) = family.intervals(&planes, level) else { continue };
+            let ends = intervals.low.iter().zip(&intervals.high);
+            assert!(ends.clone().all(|(low, high)| low <= high), "{} {level:?}", family.id());
+            let tallies = coverage_of(&intervals, &observed, &truth, level, Some(groups)).unwrap();
+            let CoverageTally { total, covered, truth_above, truth_below, .. } = tallies[0];
+            assert_eq!(covered + truth_above + truth_below, total);
+        }
         if let Ok(widths) = half_widths(&observed, &[(picks.number(), level)]) {
             let _ = enclosure(&denoised, &widths, &observed);
             let tallies = bound_violations(&denoised, &widths, &observed, &truth, level, Some(groups));
