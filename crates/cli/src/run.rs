@@ -46,6 +46,7 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
         again: &args.again,
         command: command(args),
         simd: noisefloor_kernels::InstructionSet::in_use().name().to_owned(),
+        laboratory: noisefloor_harness::Laboratory::default(),
         observer: &watcher,
     };
     interrupt::catch()?;

@@ -9,6 +9,7 @@ use noisefloor_io::ReadOptions;
 use serde::{Deserialize, Serialize};
 
 use crate::error::HarnessError;
+use crate::observer::Observer;
 use crate::store::{hash_of, read_json, sweep, write_json};
 
 /// Age from which a temporary file of the cache is that of a process that is gone.
@@ -125,6 +126,25 @@ impl Cache {
             }
             Err(error) => Ok(Lookup::Damaged(path, error.to_string())),
         }
+    }
+
+    /// The frame of a key: what is kept, or else what `make` makes, which is kept then.
+    pub(crate) fn frame(
+        &self,
+        key: &str,
+        observer: &dyn Observer,
+        make: impl FnOnce() -> Result<Frame, HarnessError>,
+    ) -> Result<Frame, HarnessError> {
+        match self.get(key)? {
+            Lookup::Hit(frame) => return Ok(*frame),
+            Lookup::Miss => {}
+            Lookup::Damaged(path, why) => {
+                observer.warning(&format!("{}: {why}; made again", path.display()));
+            }
+        }
+        let mut frame = make()?;
+        self.put(key, &mut frame)?;
+        Ok(frame)
     }
 
     /// Writes a frame, then its entry; does nothing if a good one is there. The file's bytes depend on what the frame

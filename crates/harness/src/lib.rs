@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
+mod access;
 mod cache;
 mod error;
 mod fingerprint;
+mod laboratory;
 mod machine;
 mod memory;
 mod observer;
@@ -16,6 +18,7 @@ mod store;
 mod study_of_folder;
 
 pub use error::HarnessError;
+pub use laboratory::{Laboratory, Passing};
 pub use memory::{MemoryEstimate, memory_estimate};
 pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::{reanalyse, reanalyse_into};

@@ -6,7 +6,10 @@ mod classes;
 use noisefloor_denoiser::{MethodCard, Output};
 use noisefloor_frame::{Counts, Frame, Hygiene, Image, Maps, Reference, Sampling, Variance};
 use noisefloor_metrics::{Measurer, MetricError};
-use noisefloor_stats::{self as stats, Groups, Observed, ShapeError, Truth};
+use noisefloor_stats::{
+    self as stats, Groups, IntervalFamily, IntervalPlanes, Level, Observed, SamplePlanes, ShapeError, Truth,
+    students_t,
+};
 use noisefloor_study::Study;
 
 pub(crate) use blocks::{Blocks, within_se};
@@ -63,6 +66,8 @@ pub struct Measure<'a> {
     pub(crate) classes: &'a PixelClasses,
     /// Pixels that were finite on input; the others have no statistics.
     valid: Vec<bool>,
+    /// The intervals that are judged, and that bounds are made of.
+    intervals: &'a dyn IntervalFamily,
     /// Blocks of the image, if its uncertainty has to come from within.
     pub(crate) blocks: Option<Blocks>,
 }
@@ -95,8 +100,15 @@ impl<'a> Measure<'a> {
             truth: Truth { mean: reference.mean().data(), variance },
             classes,
             valid: (0..frame.pixels()).map(|p| !invalid.get(p).is_some_and(|bad| *bad)).collect(),
+            intervals: students_t(),
             blocks: within.then(|| Blocks::new(frame.width(), frame.height())),
         }
+    }
+
+    /// With other intervals than Student's t.
+    #[must_use]
+    pub fn with_intervals(self, intervals: &'a dyn IntervalFamily) -> Self {
+        Self { intervals, ..self }
     }
 
     /// The input's statistics, if it has any.
@@ -122,6 +134,45 @@ impl<'a> Measure<'a> {
             && self.frame.provenance.rounds.is_none()
             && self.frame.samples.total().uniform().is_some_and(|n| n >= 2);
         self.observed().filter(|_| sound)
+    }
+
+    /// Everything of the frame that intervals can be made of.
+    pub(crate) fn planes<'b>(&'b self, observed: Observed<'b>) -> SamplePlanes<'b> {
+        let optional = &self.frame.optional;
+        SamplePlanes {
+            observed,
+            width: self.frame.width(),
+            third_moment: optional.third_moment().map(Image::data),
+            least: optional.least().map(Image::data),
+            greatest: optional.greatest().map(Image::data),
+        }
+    }
+
+    /// Intervals of all pixels at a level; `None` where the frame lacks something that they need.
+    pub(crate) fn intervals_at(
+        &self,
+        observed: &Observed<'_>,
+        level: Level,
+    ) -> Result<Option<IntervalPlanes>, ShapeError> {
+        self.intervals.intervals(&self.planes(*observed), level)
+    }
+
+    /// Half-widths of a bound in terms of them: those of Student's t to the last digit.
+    pub(crate) fn half_widths(
+        &self,
+        observed: &Observed<'_>,
+        terms: &[(f64, Level)],
+    ) -> Result<Option<Vec<f64>>, ShapeError> {
+        if self.intervals.id() == students_t().id() {
+            return stats::half_widths(observed, terms).map(Some);
+        }
+        let mut out = vec![0.0; observed.mean.len()];
+        for &(factor, level) in terms {
+            let Some(planes) = self.intervals_at(observed, level)? else { return Ok(None) };
+            let widths = planes.low.iter().zip(&planes.high).map(|(low, high)| 0.5 * (high - low));
+            out.iter_mut().zip(widths).for_each(|(sum, width)| *sum += factor * width);
+        }
+        Ok(Some(out))
     }
 
     pub(crate) fn groups(&self) -> Groups<'_> {

@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use noisefloor_frame::{Frame, Image, Reference};
+use noisefloor_stats::IntervalFamily;
 use noisefloor_study::Study;
 use serde_json::Value;
 
 use crate::cell::{Measure, MeasureError, PixelClasses};
-use crate::list::QUESTIONS;
+use crate::question::Question;
 
 /// One of a level's frames, the study's own of a replicate.
 #[derive(Debug)]
@@ -36,6 +37,8 @@ pub struct LevelCell<'a> {
     pub classes: &'a PixelClasses,
     /// The study's own frames, by replicate.
     pub frames: &'a [LevelFrame],
+    /// The intervals that are judged.
+    pub intervals: &'a dyn IntervalFamily,
     /// Labels of the rows that have outputs here, in the order of the study.
     pub rows: &'a [String],
     /// Reads a row's outputs, those that are there.
@@ -51,7 +54,10 @@ impl std::fmt::Debug for LevelCell<'_> {
 impl LevelCell<'_> {
     /// Each frame against the truth.
     pub(crate) fn measures(&self) -> impl Iterator<Item = Measure<'_>> {
-        self.frames.iter().map(|f| Measure::new(&f.frame, self.reference, self.classes, &f.invalid, false))
+        self.frames.iter().map(|f| {
+            Measure::new(&f.frame, self.reference, self.classes, &f.invalid, false)
+                .with_intervals(self.intervals)
+        })
     }
 }
 
@@ -75,12 +81,12 @@ pub struct LevelFound {
     pub maps: Vec<Map>,
 }
 
-/// Puts every question to a level.
+/// Puts questions to a level.
 ///
 /// # Errors
 /// Of the first question that cannot be measured.
-pub fn measure_level(level: &LevelCell<'_>) -> Result<LevelFound, MeasureError> {
+pub fn measure_level(questions: &[Question], level: &LevelCell<'_>) -> Result<LevelFound, MeasureError> {
     let mut found = LevelFound::default();
-    QUESTIONS.iter().try_for_each(|question| (question.level)(level, &mut found))?;
+    questions.iter().try_for_each(|question| (question.level)(level, &mut found))?;
     Ok(found)
 }

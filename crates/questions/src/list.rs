@@ -26,10 +26,10 @@ pub const QUESTIONS: &[Question] = &[
     breakage::QUESTION,
 ];
 
-/// Puts every question to a finished cell.
+/// Puts questions to a finished cell.
 ///
 /// # Errors
 /// Of the first question that cannot be measured.
-pub fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
-    QUESTIONS.iter().try_for_each(|question| (question.measure)(cell, record))
+pub fn measure(questions: &[Question], cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
+    questions.iter().try_for_each(|question| (question.measure)(cell, record))
 }

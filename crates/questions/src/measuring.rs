@@ -6,7 +6,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 use noisefloor_denoiser::Claim;
 use noisefloor_frame::{Frame, Image, Reference, Sampling};
 use noisefloor_metrics::{Classes, Measurer, Metric, MetricError, block_bootstrap};
-use noisefloor_stats::{Level, ShapeError};
+use noisefloor_stats::{Level, ShapeError, students_t};
 use noisefloor_study::{Bits, Key, key_of};
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
 use serde_json::{Value, json};
@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use crate::cell::{Measure, MeasureError, PixelClasses};
 use crate::error::{BOOTSTRAP_IMAGES, ratio_within_se};
 use crate::level::{LevelCell, LevelFrame, Outputs, measure_level};
+use crate::list::QUESTIONS;
 
 /// Hash of all that the measuring of a cell gives on a fixed frame, output and truth, for each way in which a truth states
 /// its noise: metrics, their standard errors, classes, coverage, bounds, enclosures, estimates of error.
@@ -54,10 +55,11 @@ fn levels() -> Result<Value, Wrong> {
             reference,
             classes: &classes,
             frames: &frames,
+            intervals: students_t(),
             rows: &rows,
             outputs: &outputs,
         };
-        let found = measure_level(&level)?;
+        let found = measure_level(QUESTIONS, &level)?;
         let mut bits = Bits::of("maps");
         for map in &found.maps {
             bits.text(&map.label);

@@ -36,6 +36,12 @@ pub static FAMILIES: &[&dyn IntervalFamily] = &[
     &one_sided::UpperT,
 ];
 
+/// Student's t: the intervals of moon2013flash.
+#[must_use]
+pub fn students_t() -> &'static dyn IntervalFamily {
+    &student::StudentT
+}
+
 /// The family of this id.
 #[must_use]
 pub fn family(id: &str) -> Option<&'static dyn IntervalFamily> {

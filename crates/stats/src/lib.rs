@@ -44,7 +44,9 @@ pub use enclosure::{Enclosure, enclosure};
 pub use equal_error::{Multiplier, equal_error_multiplier};
 pub use holm::holm_adjusted;
 pub use interval::{Interval, replicate_interval};
-pub use intervals::{FAMILIES, IntervalFamily, IntervalNeed, IntervalPlanes, SamplePlanes, family};
+pub use intervals::{
+    FAMILIES, IntervalFamily, IntervalNeed, IntervalPlanes, SamplePlanes, family, students_t,
+};
 pub use leave_one_out::{LeaveOneOutError, LeaveOneOutTally, leave_one_out};
 pub use level::{Level, LevelError, Sides};
 pub use levels::Levels;

@@ -292,6 +292,12 @@ pub struct CoverageCount {
     pub covered: u64,
     /// Of those: covered without the allowance.
     pub covered_uncorrected: u64,
+    /// Of the others: with the truth above the interval; 0 in records of programs that did not tell the sides apart.
+    #[serde(default)]
+    pub truth_above: u64,
+    /// With the truth below the interval.
+    #[serde(default)]
+    pub truth_below: u64,
     /// Pixel-channels with s = 0 whose mean agrees with the truth within the reference's noise.
     pub constant: u64,
     /// Pixel-channels with s = 0 whose mean does not: the event was missed by all samples.

@@ -82,6 +82,7 @@ impl OnFrame<'_> {
         let finite = output.figures.iter().filter(|figure| figure.value.is_finite());
         let figures = finite.map(|figure| (figure.name.clone(), figure.value)).collect();
         let asked = questions::measure(
+            self.runner.request.laboratory.questions,
             &Cell {
                 study: self.runner.request.study,
                 method: &row.method.id,

@@ -51,7 +51,7 @@ pub(super) fn settle(
         let (reference, classes) = match prepared {
             Some(prepared) => prepared,
             None => {
-                read = truth(runner.scene(), runner.cache, runner.layout, runner.request.observer)?.0;
+                read = truth(runner.scene(), runner.layout, runner.access())?.0;
                 (&read.reference, &read.classes)
             }
         };
@@ -125,7 +125,7 @@ fn measure(
     let mut frames = Vec::new();
     for spec in &level.frames {
         // A frame that contradicts itself ended its own cells.
-        let Ok(checked) = scene.frame(spec, None, runner.cache, runner.request.observer) else { continue };
+        let Ok(checked) = scene.frame(spec, None, runner.access()) else { continue };
         let invalid = checked.hygiene.without_statistics();
         frames.push(LevelFrame { replicate: spec.replicate, frame: checked.frame, invalid });
     }
@@ -145,10 +145,11 @@ fn measure(
         reference,
         classes,
         frames: &frames,
+        intervals: runner.request.laboratory.intervals,
         rows: &rows,
         outputs: &outputs,
     };
-    let found = measure_level(&cell).map_err(|error| match error {
+    let found = measure_level(runner.request.laboratory.questions, &cell).map_err(|error| match error {
         MeasureError::Metric(source) => HarnessError::Metric { scene: scene.id.clone(), source },
         MeasureError::Shape(source) => HarnessError::Shape { scene: scene.id.clone(), source },
     })?;

@@ -5,9 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use noisefloor_frame::{Reference, SquaredError};
 use noisefloor_metrics::{Classes, Measurer};
 
-use crate::cache::Cache;
+use crate::access::Access;
 use crate::error::HarnessError;
-use crate::observer::Observer;
 use crate::source::Scene;
 use crate::store::{Layout, damaged, hash_of, read_json, write_json};
 use noisefloor_questions::PixelClasses;
@@ -66,11 +65,10 @@ fn correction(measurer: &Measurer<'_>) -> String {
 /// Renders or reads the reference, and writes all that describes the scene.
 pub(super) fn truth(
     scene: &Scene,
-    cache: &Cache,
     layout: &Layout,
-    observer: &dyn Observer,
+    access: Access<'_>,
 ) -> Result<(Truth, SceneContext), HarnessError> {
-    let (reference, mut findings) = scene.reference(cache, observer)?;
+    let (reference, mut findings) = scene.reference(access)?;
     findings.extend(scene.findings.iter().cloned());
     let classes = scene.classes(&reference)?;
     let truth = Truth { classes, reference: reference.clone() };

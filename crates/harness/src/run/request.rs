@@ -3,6 +3,7 @@ use std::path::Path;
 use noisefloor_denoiser::Registry;
 use noisefloor_study::Study;
 
+use crate::laboratory::Laboratory;
 use crate::observer::Observer;
 
 /// A study to run, with everything it needs from outside.
@@ -23,6 +24,8 @@ pub struct StudyRun<'a> {
     pub command: String,
     /// Instruction set that the kernels chose, for the report.
     pub simd: String,
+    /// What measures it.
+    pub laboratory: Laboratory<'a>,
     /// Is told how it goes, and may stop it.
     pub observer: &'a dyn Observer,
 }

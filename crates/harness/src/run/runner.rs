@@ -6,6 +6,7 @@ use noisefloor_frame::{Frame, Sampling};
 use noisefloor_questions::measuring;
 use noisefloor_study::record::{NonFinite, Outcome, RECORD_SCHEMA, Record, Seconds};
 
+use crate::access::Access;
 use crate::cache::Cache;
 use crate::error::HarnessError;
 use crate::machine;
@@ -29,6 +30,10 @@ pub(super) struct Runner<'a> {
 impl Runner<'_> {
     pub(super) fn scene(&self) -> &Scene {
         &self.plan.scenes[self.place]
+    }
+
+    pub(super) fn access(&self) -> Access<'_> {
+        Access { cache: self.cache, laboratory: &self.request.laboratory, observer: self.request.observer }
     }
 
     /// The record of a cell before it has run.
@@ -82,7 +87,7 @@ impl Runner<'_> {
         let mut frames = BTreeMap::new();
         for (distance, spec) in cells.iter().flat_map(|cell| &cell.beside) {
             if let Some(moment) = self.scene().moment(*distance).filter(|_| !frames.contains_key(distance)) {
-                let checked = moment.frame(spec, None, self.cache, self.request.observer)?;
+                let checked = moment.frame(spec, None, self.access())?;
                 frames.insert(*distance, checked.frame);
             }
         }

@@ -36,7 +36,7 @@ pub(super) fn run(
         let text = format!("{file} is not what was written or is gone; it is written again");
         runner.request.observer.warning(&text);
     }
-    let (truth, mut context) = truth(scene, runner.cache, runner.layout, runner.request.observer)?;
+    let (truth, mut context) = truth(scene, runner.layout, runner.access())?;
     context.files.extend(hashes);
     let asked = metric::asked(&runner.request.study.metrics);
     let measurer = truth.measurer(scene)?.with(&asked);
@@ -48,7 +48,7 @@ pub(super) fn run(
             replicate: spec.replicate,
         });
         let steering = cells.first().map(|cell| runner.plan.row(cell));
-        let made = scene.frame(spec, steering, runner.cache, runner.request.observer);
+        let made = scene.frame(spec, steering, runner.access());
         let made = made.and_then(|checked| Ok((checked, runner.beside(&cells)?)));
         let (checked, beside) = match made {
             // A frame that contradicts itself, or a method that does not know where it needs samples, ends its
@@ -79,7 +79,8 @@ pub(super) fn run(
         let pairs = inputs.frame(spec, frame, &without, &mut context)?;
         findings
             .extend(pairs.into_iter().filter(|f| !told || f.kind != FindingKind::VarianceAgainstReference));
-        let measure = Measure::new(frame, &truth.reference, &truth.classes, &without, scene.single());
+        let measure = Measure::new(frame, &truth.reference, &truth.classes, &without, scene.single())
+            .with_intervals(runner.request.laboratory.intervals);
         let here = OnFrame {
             runner,
             measurer: &measurer,

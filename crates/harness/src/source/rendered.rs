@@ -15,7 +15,7 @@ use noisefloor_render::{
 };
 use serde_json::{Value, json};
 
-use crate::cache::{Cache, Lookup};
+use crate::cache::Cache;
 use crate::error::HarnessError;
 use crate::observer::{Observer, Silent, Stage};
 use crate::row::Row;
@@ -336,7 +336,7 @@ impl Rendered {
             }
             _ => rendered(request, observer),
         };
-        cached(cache, &spec.key, observer, || {
+        cache.frame(&spec.key, observer, || {
             let Some(settings) = self.shot.photons() else { return make(&request) };
             let fresh;
             let maps = match self.shot.maps {
@@ -384,7 +384,7 @@ impl Rendered {
                 parts: self.reference.parts,
             });
             let mut request = self.request(per_part, *seed, self.reference.sampling, Recorded::color_only());
-            let frame = cached(cache, key, observer, || {
+            let frame = cache.frame(key, observer, || {
                 if self.shot.integrator == Integrator::PhotonMapping && self.shot.maps == Maps::Fixed {
                     request.integrator = Integrator::PhotonMapping;
                     request.photons = Some(self.shared_maps()?);
@@ -406,25 +406,6 @@ impl Rendered {
                 .map(|class| (class.name(), of_scene.iter().map(|c| *c == class).collect::<Vec<bool>>()));
         Ok(PixelClasses::from_masks(&of_class, reference))
     }
-}
-
-/// From the cache, or made and put there.
-fn cached(
-    cache: &Cache,
-    key: &str,
-    observer: &dyn Observer,
-    make: impl FnOnce() -> Result<Frame, HarnessError>,
-) -> Result<Frame, HarnessError> {
-    match cache.get(key)? {
-        Lookup::Hit(frame) => return Ok(*frame),
-        Lookup::Miss => {}
-        Lookup::Damaged(path, why) => {
-            observer.warning(&format!("{}: {why}; made again", path.display()));
-        }
-    }
-    let mut frame = make()?;
-    cache.put(key, &mut frame)?;
-    Ok(frame)
 }
 
 fn rendered(request: &RenderRequest<'_>, observer: &dyn Observer) -> Result<Frame, HarnessError> {

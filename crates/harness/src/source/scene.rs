@@ -10,6 +10,7 @@ use noisefloor_study::plan::ReferenceRange;
 use noisefloor_study::{RowFrames, SceneSource, SceneSpec, Shot, Study};
 use noisefloor_synthetic::SyntheticScene;
 
+use crate::access::Access;
 use crate::cache::Cache;
 use crate::error::HarnessError;
 use crate::observer::Observer;
@@ -178,16 +179,16 @@ impl Scene {
         &self,
         spec: &FrameSpec,
         row: Option<&Row>,
-        cache: &Cache,
-        observer: &dyn Observer,
+        access: Access<'_>,
     ) -> Result<Checked, HarnessError> {
+        let Access { cache, observer, laboratory } = access;
         let (mut frame, fidelity, name) = match &self.source {
             Source::Rendered(rendered) => {
                 let frame = rendered.frame(spec, row, cache, observer)?;
                 (frame, Fidelity::Rounded, self.name_of(spec, row))
             }
             Source::Synthetic(scene) => {
-                let frame = scene.render(spec.spp, spec.seed);
+                let frame = synthetic::frame(scene, spec, cache, observer)?;
                 (frame, Fidelity::Rounded, self.name_of(spec, row))
             }
             Source::Imported(folder) => {
@@ -196,6 +197,7 @@ impl Scene {
                 (file.frame, file.fidelity, format!("{}: {name}", self.id))
             }
         };
+        laboratory.pass_frame(&self.id, (spec.spp, spec.replicate), &mut frame);
         match frame.inspect(fidelity) {
             Ok(hygiene) => Ok(Checked { frame, hygiene, name }),
             Err(source) => Err(HarnessError::Unsound { frame: name, source: Box::new(source) }),
@@ -216,7 +218,13 @@ impl Scene {
     ///
     /// # Errors
     /// [`HarnessError::Image`] also for one that contradicts itself.
-    pub(crate) fn reference(
+    pub(crate) fn reference(&self, access: Access<'_>) -> Result<(Reference, Vec<Finding>), HarnessError> {
+        let (mut reference, findings) = self.reference_of_source(access.cache, access.observer)?;
+        access.laboratory.pass_reference(&self.id, &mut reference);
+        Ok((reference, findings))
+    }
+
+    fn reference_of_source(
         &self,
         cache: &Cache,
         observer: &dyn Observer,

@@ -2,14 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::Sampling;
+use noisefloor_frame::{Frame, Sampling};
 use noisefloor_questions::PixelClasses;
 use noisefloor_study::{Bits, Key, Place, SceneSpec, Study, StudyError, hash_of_frame, key_of};
 use noisefloor_synthetic::SyntheticScene;
 use serde_json::json;
 
+use crate::cache::Cache;
 use crate::error::HarnessError;
-use crate::source::frame::frame_specs;
+use crate::observer::Observer;
+use crate::source::frame::{FrameSpec, frame_specs};
 use crate::source::opened::Opened;
 use crate::source::probe::{PROBE, PROBE_SPP};
 
@@ -61,6 +63,16 @@ pub(super) fn open(
         equal_time_spp: None,
     };
     Ok((opened, scene))
+}
+
+/// Draws a frame, or reads it: others can compute what is said of it from the file.
+pub(super) fn frame(
+    scene: &SyntheticScene,
+    spec: &FrameSpec,
+    cache: &Cache,
+    observer: &dyn Observer,
+) -> Result<Frame, HarnessError> {
+    cache.frame(&spec.key, observer, || Ok(scene.render(spec.spp, spec.seed)))
 }
 
 /// Hashes of a tiny frame of a synthetic scene and of its truth with the classes of its pixels: they change whenever other

@@ -321,6 +321,7 @@ impl Place {
             again: &[],
             command: "test".into(),
             simd: "none".into(),
+            laboratory: noisefloor_harness::Laboratory::default(),
             observer: watch,
         })
     }

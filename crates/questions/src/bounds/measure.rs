@@ -28,7 +28,7 @@ impl Measure<'_> {
         let Some(observed) = self.intervals() else { return Ok(Vec::new()) };
         let mut out = Vec::new();
         for claim in claims {
-            let widths = stats::half_widths(&observed, &claim.terms)?;
+            let Some(widths) = self.half_widths(&observed, &claim.terms)? else { continue };
             out.extend(self.leaves(image, &observed, &widths, (&claim.name, claim.level, claim.proven))?);
         }
         Ok(out)

@@ -1,6 +1,6 @@
 //! How often Student's interval around the noisy mean contains the truth.
 
-use noisefloor_stats::{self as stats, CoverageTally, Level, ShapeError};
+use noisefloor_stats::{self as stats, CoverageTally, Groups, Level, Observed, ShapeError};
 use noisefloor_study::BASELINE;
 use noisefloor_study::record::{CoverageCount, Record};
 
@@ -24,7 +24,11 @@ impl Measure<'_> {
         let mut out = Vec::new();
         // Confidences were checked with the study.
         for level in confidences.iter().filter_map(|&c| Level::two_sided(c).ok()) {
-            let tallies = stats::coverage(&observed, &self.truth, level, Some(self.groups()))?;
+            let Some(planes) = self.intervals_at(&observed, level)? else { continue };
+            let count = |observed: &Observed<'_>, groups: Groups<'_>| {
+                stats::coverage_of(&planes, observed, &self.truth, level, Some(groups))
+            };
+            let tallies = count(&observed, self.groups())?;
             for (index, (class, tally)) in
                 self.names().zip(tallies).enumerate().filter(|(_, (_, t))| t.all() > 0)
             {
@@ -34,13 +38,12 @@ impl Measure<'_> {
                     total: tally.total,
                     covered: tally.covered,
                     covered_uncorrected: tally.covered_uncorrected,
+                    truth_above: tally.truth_above,
+                    truth_below: tally.truth_below,
                     constant: tally.constant,
                     missed: tally.missed,
-                    within_se: self.within(
-                        index,
-                        |observed, groups| stats::coverage(observed, &self.truth, level, Some(groups)),
-                        |t: &CoverageTally| (t.covered + t.constant, t.all()),
-                    ),
+                    within_se: self
+                        .within(index, count, |t: &CoverageTally| (t.covered + t.constant, t.all())),
                 });
             }
         }
