@@ -26,6 +26,7 @@ mod share;
 mod slope;
 mod student;
 
+pub mod instrument;
 pub mod random;
 
 pub use band::{BandError, EcdfBand, ecdf};
