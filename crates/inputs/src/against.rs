@@ -1,9 +1,9 @@
 //! A reference, ready to have frames held against it.
 
 use noisefloor_frame::{Image, Reference, SquaredError};
+use noisefloor_stats::instrument::{Blocks, smooth_weights};
 
 use crate::Planes;
-use crate::blocks::Blocks;
 
 /// A reference with what all frames need of it.
 #[derive(Debug)]
@@ -13,15 +13,11 @@ pub struct Against<'a> {
     pub(crate) spp: Option<f64>,
     pub(crate) exact: bool,
     pub(crate) blocks: Blocks,
-    /// w = (m² + ε)^-½ per block, with m the block's mean and √ε a tenth of the image's: smooth, so that the reference's
-    /// own noise does not weigh itself.
+    /// [`smooth_weights`] of the channels' mean, per block.
     pub(crate) weights: Vec<f64>,
     finite: Vec<bool>,
     pub(crate) planes: Planes,
 }
-
-/// Of a reference, √ε in units of its mean.
-const DARK: f64 = 0.1;
 
 impl<'a> Against<'a> {
     /// `spp` are the samples per pixel of the reference, where they are known.
@@ -31,19 +27,7 @@ impl<'a> Against<'a> {
         let blocks = Blocks::new(mean.width(), mean.height());
         let finite: Vec<bool> =
             (0..mean.pixels()).map(|p| mean.planes().all(|plane| plane[p].is_finite())).collect();
-        let (mut sum, mut count) = (vec![0.0; blocks.count()], vec![0.0; blocks.count()]);
-        for pixel in (0..mean.pixels()).filter(|&p| finite[p]) {
-            let block = blocks.of(pixel);
-            sum[block] += f64::from(grey(mean, pixel));
-            count[block] += 1.0;
-        }
-        let all = sum.iter().sum::<f64>().abs() / count.iter().sum::<f64>().max(1.0);
-        let floor = DARK * all;
-        let weight = |(sum, count): (&f64, &f64)| {
-            let brightness = (sum / count.max(1.0)).hypot(floor);
-            if brightness > 0.0 { 1.0 / brightness } else { 1.0 }
-        };
-        let weights = sum.iter().zip(&count).map(weight).collect();
+        let weights = smooth_weights(&blocks, |p| finite[p].then(|| f64::from(grey(mean, p))));
         let planes = Planes::of(&reference.frame.color).with_parts(&reference.parts);
         let exact = reference.squared_error() == SquaredError::Exact;
         Self { reference, spp: spp.filter(|n| *n >= 1.0), exact, blocks, weights, finite, planes }

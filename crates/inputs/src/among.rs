@@ -1,10 +1,10 @@
 //! The frames of a scene among each other, from their sketches.
 
 use noisefloor_frame::{Finding, FindingKind};
+use noisefloor_stats::instrument::shrunk;
 
 use crate::Sketch;
 use crate::against::Against;
-use crate::brightness::shrunk;
 use crate::chance::{ALPHA, SCENE_ALPHA, p_value};
 
 /// Smallest relative difference of all frames together that is told.

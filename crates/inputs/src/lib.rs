@@ -21,12 +21,12 @@
 
 mod against;
 mod among;
-mod blocks;
 mod brightness;
 mod chance;
 mod check;
 mod dependence;
 mod equal;
+mod median;
 mod number;
 mod picture;
 mod seeds;

@@ -10,12 +10,12 @@ mod moves;
 mod tone;
 
 use noisefloor_frame::{Finding, FindingKind, Image};
+use noisefloor_stats::instrument::ResidualSums;
 
 use crate::against::{Against, grey};
 use crate::brightness::Brightness;
 use crate::chance::ALPHA;
 use crate::number::number;
-use crate::sums::Sums;
 use tone::Tone;
 
 /// Standard errors from pixel to pixel from which on brightness differs, even if neighbours are correlated.
@@ -26,11 +26,11 @@ pub(crate) fn frame(
     against: &Against<'_>,
     x: &Image,
     invalid: &[bool],
-    blocks: &[Sums],
+    blocks: &[ResidualSums],
     whole: Brightness,
     by_pixels: f64,
 ) -> Option<Finding> {
-    let all = Sums::total(blocks);
+    let all = ResidualSums::total(blocks);
     let ratio = if all.light > 0.0 { all.seen / all.light } else { f64::NAN };
     let moved = moves::find(against, x, invalid, ratio);
     let tested = matches!(whole, Brightness::Tested { p, .. } if p <= ALPHA);

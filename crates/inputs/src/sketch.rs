@@ -1,13 +1,13 @@
 //! What is kept of a frame to hold it against the other frames of its scene: a few kilobytes.
 
 use noisefloor_frame::{Frame, Image, Variance};
+use noisefloor_stats::instrument::ResidualSums;
 use serde::{Deserialize, Serialize};
 
 use crate::Planes;
 use crate::against::{Against, grey};
 use crate::brightness::{self, Brightness};
 use crate::chance::ALPHA;
-use crate::sums::Sums;
 
 /// Hashes of a frame's planes, sums of its brightness, and some of its pixels.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -39,12 +39,12 @@ impl Sketch {
         against: &Against<'_>,
         frame: &Frame,
         invalid: &[bool],
-        blocks: &[Sums],
+        blocks: &[ResidualSums],
         whole: Brightness,
         planes: Planes,
     ) -> Self {
         let variance = frame.color.variance.as_ref().map(Variance::mean_variance);
-        let typical = Sums::total(blocks);
+        let typical = ResidualSums::total(blocks);
         let typical = (typical.e2 / typical.pixels.max(1.0)).sqrt();
         // The typical residual for the brightness around: known without the pixel's own samples, so that distances in this
         // unit have no mean.

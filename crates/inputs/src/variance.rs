@@ -6,12 +6,12 @@
 //! 2.
 
 use noisefloor_frame::{Finding, FindingKind, Frame};
+use noisefloor_stats::instrument::ResidualSums;
 
 use crate::against::Against;
-use crate::blocks::median;
 use crate::chance::{ALPHA, p_value};
+use crate::median::median;
 use crate::number::number;
-use crate::sums::Sums;
 
 /// Smallest factor that is told, either way.
 const LEAST_FACTOR: f64 = 2.0;
@@ -27,14 +27,14 @@ struct Ratio {
 }
 
 /// Stated over shown of `sides`, which tells both of a block.
-fn ratio(blocks: &[Sums], sides: impl Fn(&Sums) -> (f64, f64)) -> Option<Ratio> {
-    let all = Sums::total(blocks);
+fn ratio(blocks: &[ResidualSums], sides: impl Fn(&ResidualSums) -> (f64, f64)) -> Option<Ratio> {
+    let all = ResidualSums::total(blocks);
     let (stated, shown) = sides(&all);
     if shown <= 0.0 || stated <= 0.0 || all.stated <= 0.0 {
         return None;
     }
-    let used: Vec<&Sums> = blocks.iter().filter(|b| b.pixels > 0.0).collect();
-    let part = |b: &&Sums| {
+    let used: Vec<&ResidualSums> = blocks.iter().filter(|b| b.pixels > 0.0).collect();
+    let part = |b: &&ResidualSums| {
         let (own_stated, own_shown) = sides(b);
         (own_stated / stated - own_shown / shown).powi(2)
     };
@@ -53,7 +53,12 @@ fn ratio(blocks: &[Sums], sides: impl Fn(&Sums) -> (f64, f64)) -> Option<Ratio> 
 }
 
 /// `differs`: the frame's mean is known to differ from the reference's, so that a large distance shows nothing.
-pub(crate) fn frame(against: &Against<'_>, frame: &Frame, blocks: &[Sums], differs: bool) -> Option<Finding> {
+pub(crate) fn frame(
+    against: &Against<'_>,
+    frame: &Frame,
+    blocks: &[ResidualSums],
+    differs: bool,
+) -> Option<Finding> {
     let n = f64::from(frame.samples.total().uniform()?);
     // `apart` is Σ w²(x−r)²/9 over channels, of which the frame's part is what is left without the reference's.
     let found = ratio(blocks, |b| (b.stated, b.apart - b.reference))?;
@@ -100,13 +105,13 @@ pub(crate) fn frame(against: &Against<'_>, frame: &Frame, blocks: &[Sums], diffe
 
 /// Where no half buffers can show that frame and reference share samples: a frame whose samples are among the reference's
 /// has (x−r)² = v − v_r. Told only if the distance is as much too small as that.
-pub(crate) fn shared(against: &Against<'_>, frame: &Frame, blocks: &[Sums]) -> Option<Finding> {
+pub(crate) fn shared(against: &Against<'_>, frame: &Frame, blocks: &[ResidualSums]) -> Option<Finding> {
     let n = f64::from(frame.samples.total().uniform()?);
     let share = n / against.spp?;
     if against.exact || !(0.1..1.0).contains(&share) || n < 2.0 {
         return None;
     }
-    let all = Sums::total(blocks);
+    let all = ResidualSums::total(blocks);
     let found = ratio(blocks, |b| (b.stated + b.reference, b.apart))?;
     // v_r must be that of so many samples, or nothing follows.
     if found.blocks < 16 || !(0.5..=2.0).contains(&(all.reference / (share * all.stated))) {

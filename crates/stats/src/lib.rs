@@ -28,6 +28,7 @@ mod slope;
 mod student;
 mod verdict;
 
+pub mod instrument;
 pub mod random;
 
 pub use band::{BandError, EcdfBand, ecdf};

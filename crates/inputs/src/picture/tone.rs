@@ -6,7 +6,7 @@ use noisefloor_frame::Image;
 
 use super::fit::{correlation, position};
 use crate::against::Against;
-use crate::blocks::median;
+use crate::median::median;
 use crate::number::number;
 
 /// A change of tone that makes frame and reference fit.

@@ -2,7 +2,7 @@
 
 /// Blocks of an image, row by row; those at the right and lower border may be smaller.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Blocks {
+pub struct Blocks {
     width: usize,
     height: usize,
     edge: usize,
@@ -13,38 +13,50 @@ pub(crate) struct Blocks {
 const LEAST: usize = 48;
 
 impl Blocks {
-    /// The largest edge of 8, 4 and 2 pixels that leaves enough blocks.
-    pub(crate) fn new(width: usize, height: usize) -> Self {
-        let of = |edge: usize| Self { width, height, edge, columns: width.div_ceil(edge) };
+    /// Blocks of an image of `width` × `height` pixels with sides of `edge` pixels. An image without width has one column,
+    /// an edge of 0 is one of 1.
+    #[must_use]
+    pub fn with_edge(width: usize, height: usize, edge: usize) -> Self {
+        let (width, edge) = (width.max(1), edge.max(1));
+        Self { width, height, edge, columns: width.div_ceil(edge) }
+    }
+
+    /// The largest edge of 8, 4 and 2 pixels that leaves at least 48 blocks.
+    #[must_use]
+    pub fn new(width: usize, height: usize) -> Self {
+        let of = |edge: usize| Self::with_edge(width, height, edge);
         [8, 4].into_iter().map(of).find(|blocks| blocks.count() >= LEAST).unwrap_or_else(|| of(2))
     }
 
-    pub(crate) fn edge(&self) -> usize {
+    /// Side of a block, pixels.
+    #[must_use]
+    pub fn edge(&self) -> usize {
         self.edge
     }
 
-    pub(crate) fn count(&self) -> usize {
+    /// Number of blocks.
+    #[must_use]
+    pub fn count(&self) -> usize {
         self.columns * self.height.div_ceil(self.edge)
     }
 
-    /// The block of a pixel.
-    pub(crate) fn of(&self, pixel: usize) -> usize {
+    /// Number of pixels of the image.
+    #[must_use]
+    pub fn pixels(&self) -> usize {
+        self.width * self.height
+    }
+
+    /// The block of a pixel, counted row by row.
+    #[must_use]
+    pub fn of(&self, pixel: usize) -> usize {
         (pixel / self.width / self.edge) * self.columns + (pixel % self.width) / self.edge
     }
 
     /// First column and row of a block.
-    pub(crate) fn corner(&self, block: usize) -> (usize, usize) {
+    #[must_use]
+    pub fn corner(&self, block: usize) -> (usize, usize) {
         (block % self.columns * self.edge, block / self.columns * self.edge)
     }
-}
-
-/// The middle value; `None` of nothing. The order of the values is lost.
-pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
-    if values.is_empty() {
-        return None;
-    }
-    let middle = values.len() / 2;
-    Some(*values.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 #[cfg(test)]
