@@ -7,8 +7,7 @@ use noisefloor_stats::IntervalFamily;
 use noisefloor_study::Study;
 use serde_json::Value;
 
-use crate::cell::{Measure, MeasureError, PixelClasses};
-use crate::question::Question;
+use crate::cell::{Measure, PixelClasses};
 
 /// One of a level's frames, the study's own of a replicate.
 #[derive(Debug)]
@@ -79,14 +78,4 @@ pub struct LevelFound {
     pub answers: BTreeMap<String, Value>,
     /// Pictures for the viewer.
     pub maps: Vec<Map>,
-}
-
-/// Puts questions to a level.
-///
-/// # Errors
-/// Of the first question that cannot be measured.
-pub fn measure_level(questions: &[Question], level: &LevelCell<'_>) -> Result<LevelFound, MeasureError> {
-    let mut found = LevelFound::default();
-    questions.iter().try_for_each(|question| (question.level)(level, &mut found))?;
-    Ok(found)
 }

@@ -3,6 +3,7 @@
 use noisefloor_study::record::Record;
 
 use crate::cell::{Cell, MeasureError};
+use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
     bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth, own_error,
@@ -32,4 +33,14 @@ pub const QUESTIONS: &[Question] = &[
 /// Of the first question that cannot be measured.
 pub fn measure(questions: &[Question], cell: &Cell<'_>, record: &mut Record) -> Result<(), MeasureError> {
     questions.iter().try_for_each(|question| (question.measure)(cell, record))
+}
+
+/// Puts questions to a level.
+///
+/// # Errors
+/// Of the first question that cannot be measured.
+pub fn measure_level(questions: &[Question], level: &LevelCell<'_>) -> Result<LevelFound, MeasureError> {
+    let mut found = LevelFound::default();
+    questions.iter().try_for_each(|question| (question.level)(level, &mut found))?;
+    Ok(found)
 }

@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 
 use crate::cell::{Measure, MeasureError, PixelClasses};
 use crate::error::{BOOTSTRAP_IMAGES, ratio_within_se};
-use crate::level::{LevelCell, LevelFrame, Outputs, measure_level};
-use crate::list::QUESTIONS;
+use crate::level::{LevelCell, LevelFrame, Outputs};
+use crate::list::{QUESTIONS, measure_level};
 
 /// Hash of all that the measuring of a cell gives on a fixed frame, output and truth, for each way in which a truth states
 /// its noise: metrics, their standard errors, classes, coverage, bounds, enclosures, estimates of error.

@@ -1,6 +1,7 @@
 //! Methods that estimate their own error, where the error is known.
 
 use noisefloor_harness::reanalyse;
+use noisefloor_stats::Verdict;
 use noisefloor_study::summary::{EstimateSummary, Source, Summary};
 
 use crate::common::{Place, Watch, records, study};
@@ -46,9 +47,11 @@ fn an_unbiased_estimate_is_calibrated_and_a_scaled_one_is_told_which_way() {
         // of its variance from n samples 2/(n−1).
         let n = PIXELS * 3.0 * 6.0;
         let (sd_measured, sd_estimated) = ((2.0 / n).sqrt(), (2.0 / (f64::from(spp - 1) * n)).sqrt());
-        for (label, scale, verdict) in
-            [("honest", 1.0, ""), ("proud", 0.5, "too optimistic"), ("shy", 2.0, "too pessimistic")]
-        {
+        for (label, scale, verdict) in [
+            ("honest", 1.0, Verdict::Shown),
+            ("proud", 0.5, Verdict::Refuted),
+            ("shy", 2.0, Verdict::Refuted),
+        ] {
             let own = found(&summary, label, spp, "all");
             let off = own.measured.value / variance - 1.0;
             assert!(off.abs() < 5.0 * sd_measured, "{label} at {spp}: measured off by {off}");
@@ -60,7 +63,9 @@ fn an_unbiased_estimate_is_calibrated_and_a_scaled_one_is_told_which_way() {
                 "{label} at {spp}: ratio off by {off}"
             );
             assert!(own.is_ratio && own.effect.source == Source::Replicates && own.effect.n == 6);
-            assert!(verdict.is_empty() || own.verdict.name() == verdict, "{label} at {spp}: {}", own.verdict);
+            let mut claims = summary.claims.iter().filter(|claim| claim.id.question == "own_error");
+            let claim = claims.find(|claim| claim.id.label == label && claim.id.spp == Some(spp)).unwrap();
+            assert_eq!(claim.verdict, verdict, "{label} at {spp}: {claim:?}");
         }
         let mse = summary.cells.iter().find(|c| c.label == "honest" && c.spp == spp).unwrap();
         let own = found(&summary, "honest", spp, "all").measured.value;

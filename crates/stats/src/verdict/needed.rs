@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
-use super::{Evidence, Region};
+use super::evidence::Evidence;
+use super::region::Region;
 use crate::normal_quantile;
 
 /// What would decide a claim that is not shown, if the estimate stays where it is.

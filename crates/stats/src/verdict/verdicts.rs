@@ -1,4 +1,5 @@
-use super::{Judged, Verdict};
+use super::judge::Judged;
+use super::word::Verdict;
 use crate::holm_adjusted;
 
 /// All verdicts of a report.
