@@ -31,9 +31,7 @@ pub fn run(context: &Context, args: &List) -> anyhow::Result<Exit> {
         say!(Out::Stdout, "{}", text(factory.as_ref(), method.as_ref(), false))?;
     }
     say!(Out::Stdout, "guarded(ID)\n  any method, projected into the confidence interval of the input mean")?;
-    let guard = Guarded::param();
-    let defaults = json!({ Guarded::PARAM: guard.default });
-    Out::Stdout.text(params(&[guard], &defaults))?;
+    Out::Stdout.text(params(&Guarded::params(), &guards(&Value::Null)))?;
     say!(Out::Stdout, "\n`noisefloor methods ID` shows one with its page")?;
     Ok(Exit::Done)
 }
@@ -104,7 +102,7 @@ fn text(factory: &dyn Factory, method: Option<&Method>, full: bool) -> String {
     out.push_str(&card(&method.denoiser.card(), full));
     out.push_str(&params(factory.params(), &method.params));
     if method.params.get(Guarded::PARAM).is_some() {
-        out.push_str(&params(&[Guarded::param()], &method.params));
+        out.push_str(&params(&Guarded::params(), &guards(&method.params)));
     }
     out
 }
@@ -189,8 +187,15 @@ fn fill(object: &mut Value, method: &Method) {
     object["bounds"] = card.claims.error_bound.iter().map(|c| c.name.clone()).collect::<Vec<_>>().into();
     object["consistent"] = card.claims.consistent.into();
     object["notes"] = card.notes.into();
-    if let (Some(params), Some(level)) = (object["params"].as_array_mut(), method.params.get(Guarded::PARAM))
-    {
-        params.push(param(&Guarded::param(), level));
+    if let (Some(params), Some(_)) = (object["params"].as_array_mut(), method.params.get(Guarded::PARAM)) {
+        let values = guards(&method.params);
+        params.extend(Guarded::params().iter().map(|own| param(own, &values[&own.name])));
     }
+}
+
+/// Values of the combinator's own parameters among those of a method, which leave out some that are defaults.
+fn guards(of: &Value) -> Value {
+    let own = Guarded::params();
+    let value = |own: &Param| of.get(&own.name).unwrap_or(&own.default).clone();
+    own.iter().map(|own| (own.name.clone(), value(own))).collect::<Map<_, _>>().into()
 }

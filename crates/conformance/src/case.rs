@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::OnceLock;
 
-use noisefloor_frame::{Frame, Samples};
+use noisefloor_frame::{Frame, Samples, Statistic};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene, hard_case};
 
 /// Columns and rows of most frames: no multiple of any tile or vector, and quick.
@@ -40,6 +40,9 @@ impl Case {
     }
 }
 
+/// Optional statistics that methods can need.
+pub(crate) const STATISTICS: [Statistic; 3] = [Statistic::ThirdMoment, Statistic::Least, Statistic::Greatest];
+
 /// A frame with every buffer that a synthetic scene has.
 ///
 /// # Panics
@@ -47,7 +50,7 @@ impl Case {
 pub(crate) fn render(width: usize, height: usize, spp: u32, seed: u64) -> Frame {
     let law = SampleLaw::LogNormal { sigma: 0.7 };
     let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, width, height);
-    scene.expect("the law and the sizes of recipes are in range").render(spp, seed)
+    scene.expect("the law and the sizes of recipes are in range").render_with(spp, seed, &STATISTICS)
 }
 
 /// [`render`] at the usual size and samples, made once.

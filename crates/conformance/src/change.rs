@@ -1,6 +1,6 @@
 //! Changes of frames that a result should follow, or not notice.
 
-use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, Image, Variance};
+use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, Image, Optional, Statistic, Variance};
 
 /// Edits the variance of the mean, if there is one.
 pub fn set_variance(estimate: &mut Estimate, value: impl FnMut(f32) -> f32) {
@@ -51,7 +51,8 @@ fn times(k: f32) -> impl Fn(&Image, i32) -> Image {
     move |image, power| image.map(|v| (0..power).fold(v, |v, _| v * k))
 }
 
-/// Changes whatever has red, green and blue. `change` gets an image and the power of its unit: 2 for variances.
+/// Changes whatever has red, green and blue. `change` gets an image and the power of its unit: 2 for variances, 3 for third
+/// moments.
 fn colors(frame: &Frame, change: &impl Fn(&Image, i32) -> Image) -> Frame {
     features(radiances(frame, change), |id| matches!(id, FeatureId::Albedo | FeatureId::Brdf), change)
 }
@@ -67,7 +68,24 @@ fn radiances(frame: &Frame, change: &impl Fn(&Image, i32) -> Image) -> Frame {
         },
         Flash::Ready(flash) => Flash::Ready(each(flash, change)),
     });
+    out.optional = optional(&frame.optional, change);
     out
+}
+
+/// The same change of optional statistics; moments of transformed samples, which have no power, are left out, and so are all
+/// samples of a pixel.
+fn optional(of: &Optional, change: &impl Fn(&Image, i32) -> Image) -> Optional {
+    let power = |statistic: &Statistic| match statistic {
+        Statistic::ThirdMoment => Some(3),
+        Statistic::Least | Statistic::Greatest | Statistic::FourParts | Statistic::Position => Some(1),
+        _ => None,
+    };
+    let recorded = of.recorded().iter().filter_map(|(statistic, images)| {
+        let power = power(statistic)?;
+        Some((*statistic, images.iter().map(|image| change(image, power)).collect()))
+    });
+    let parts = of.four_parts().map(|parts| parts.samples.clone());
+    Optional::new(recorded.collect(), parts, Vec::new()).unwrap_or_default()
 }
 
 fn features(
@@ -116,6 +134,17 @@ mod tests {
         assert_eq!(bright.color.variance.unwrap().mean_variance().data(), [16.0, 32.0, 48.0]);
         assert_eq!(bright.features[&FeatureId::Direct].mean.data(), [4.0, 8.0, 12.0]);
         assert_eq!(bright.features[&FeatureId::Albedo].mean.data(), [1.0, 2.0, 3.0]);
+    }
+
+    #[test]
+    fn an_exposure_goes_into_third_moments_by_its_cube() {
+        let mut frame = frame();
+        let image = || vec![Image::filled(1, 1, 3, 1.0)];
+        let recorded = vec![(Statistic::ThirdMoment, image()), (Statistic::Greatest, image())];
+        frame.optional = Optional::new(recorded, None, vec![]).unwrap();
+        let bright = exposed(&frame, 4.0).optional;
+        assert_eq!(bright.third_moment().unwrap().data(), [64.0; 3]);
+        assert_eq!(bright.greatest().unwrap().data(), [4.0; 3]);
     }
 
     #[test]

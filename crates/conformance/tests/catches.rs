@@ -8,7 +8,7 @@ use noisefloor_denoiser::{
     MethodCard, MonteCarlo, Need, Output,
 };
 use noisefloor_frame::{FeatureId, Image, luminance};
-use noisefloor_stats::Level;
+use noisefloor_stats::{FAMILIES, Level};
 
 type Answer = Result<Output, DenoiseError>;
 
@@ -85,6 +85,31 @@ fn plain_and_guarded_monte_carlo_conform() {
     assert!(matches!(report.of("counts"), Some(Outcome::Kept { refused: 4, .. })), "{report:?}");
     assert_eq!(report.of("neighbors"), Some(&Outcome::Idle("it looks at one frame")));
     assert_eq!(report.to_string(), format!("guarded(mc) keeps all {} recipes", recipes().len()));
+}
+
+#[test]
+fn what_is_guarded_by_any_family_of_intervals_conforms() {
+    let black = || {
+        with(card(), |_, mut output| {
+            output.image = output.image.map(|_| 0.0);
+            Ok(output)
+        })
+    };
+    for family in FAMILIES {
+        let guarded = |inner| Guarded::new(inner, Level::TWO_SIDED_99).with_interval(*family);
+        assert_conforms(&guarded(Box::new(MonteCarlo)));
+        // With one end alone nothing keeps it near the input.
+        if family.has_both_ends() {
+            let method = guarded(Box::new(black()));
+            assert_conforms(&method);
+            let needs = method.card().needs.len();
+            let report = check(&method);
+            assert!(
+                matches!(report.of("missing"), Some(Outcome::Kept { frames, .. }) if *frames == needs),
+                "{report:?}"
+            );
+        }
+    }
 }
 
 #[test]

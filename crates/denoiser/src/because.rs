@@ -20,7 +20,7 @@ fn explains(finding: &Finding, need: &Need) -> bool {
         Need::ColorVariance | Need::ColorHalves => "color",
         Need::Feature(id) | Need::FeatureVariance(id) | Need::FeatureHalves(id) => FeatureId::name(id),
         Need::Flash | Need::FlashVariance => "flash",
-        Need::Samples(_) | Need::IndependentSamples => return false,
+        Need::Samples(_) | Need::IndependentSamples | Need::ThirdMoment | Need::Extremes => return false,
     };
     let same = match name {
         "color" => ["", "color"].contains(&layer),

@@ -1,7 +1,25 @@
 use std::collections::BTreeMap;
 
-use noisefloor_frame::{Image, Samples};
-use noisefloor_stats::{Level, TTable};
+use noisefloor_frame::{Counts, Frame, Image, Samples, Variance};
+use noisefloor_stats::{Level, Observed, SampleCounts, SamplePlanes, TTable};
+
+/// What families of intervals ask of a frame's colour; `None` without a variance. All pixels take part.
+#[must_use]
+pub fn sample_planes(frame: &Frame) -> Option<SamplePlanes<'_>> {
+    let counts = match frame.samples.total() {
+        Counts::Uniform(n) => SampleCounts::Uniform(*n),
+        Counts::PerPixel(map) => SampleCounts::PerPixel(map),
+    };
+    let variance = frame.color.variance.as_ref().map(Variance::mean_variance)?.data();
+    let mean = frame.color.mean.data();
+    Some(SamplePlanes {
+        observed: Observed { mean, variance, counts, pixels: frame.pixels(), valid: None },
+        width: frame.width(),
+        third_moment: frame.optional.third_moment().map(Image::data),
+        least: frame.optional.least().map(Image::data),
+        greatest: frame.optional.greatest().map(Image::data),
+    })
+}
 
 /// Half-width t·s/√n of the confidence interval of each pixel's mean, per channel, at `level`.
 ///

@@ -26,6 +26,10 @@ pub enum Need {
     Flash,
     /// Variance of the virtual flash image (for parts: of both).
     FlashVariance,
+    /// Third central moment of the colour's samples, an optional statistic.
+    ThirdMoment,
+    /// Least and greatest sample of the colour, optional statistics.
+    Extremes,
 }
 
 impl Need {
@@ -46,6 +50,8 @@ impl Need {
                 Some(Flash::Ready(flash)) => flash.variance.is_some(),
                 None => false,
             },
+            Self::ThirdMoment => frame.optional.third_moment().is_some(),
+            Self::Extremes => frame.optional.least().is_some() && frame.optional.greatest().is_some(),
         }
     }
 }
@@ -62,6 +68,12 @@ impl fmt::Display for Need {
             Self::FeatureHalves(id) => write!(f, "feature `{id}` with its half buffers"),
             Self::Flash => f.write_str("virtual flash image"),
             Self::FlashVariance => f.write_str("variance of the virtual flash image"),
+            Self::ThirdMoment => {
+                f.write_str("third moment of the samples: `statistics = [\"third-moment\"]`")
+            }
+            Self::Extremes => {
+                f.write_str("least and greatest samples: `statistics = [\"least\", \"greatest\"]`")
+            }
         }
     }
 }

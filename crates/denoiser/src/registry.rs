@@ -35,8 +35,8 @@ impl Registry {
         self.factories.iter().find(|factory| factory.id() == id).map(AsRef::as_ref)
     }
 
-    /// Builds `id` with overrides of its defaults. `guarded(ID)` wraps any method; its own parameter is
-    /// `guard_level`, the rest goes to the inner method.
+    /// Builds `id` with overrides of its defaults. `guarded(ID)` wraps any method; its own parameters are
+    /// `guard_level` and `guard_interval`, the rest goes to the inner method.
     ///
     /// # Errors
     /// [`BuildError`] naming the nearest methods or parameters and the allowed range; [`BuildError::Nesting`] for more
@@ -53,9 +53,9 @@ impl Registry {
     fn build_levels(&self, id: &str, overrides: &Map<String, Value>) -> Result<Method, BuildError> {
         if let Some(inner) = id.strip_prefix("guarded(").and_then(|rest| rest.strip_suffix(')')) {
             let mut rest = overrides.clone();
-            let level = rest.remove(Guarded::PARAM);
-            let inner = self.build_levels(inner, &rest).map_err(offer_guard_level)?;
-            return Guarded::from_parts(id, inner, level);
+            let own = Guarded::take_own(&mut rest);
+            let inner = self.build_levels(inner, &rest).map_err(offer_guards)?;
+            return Guarded::from_parts(id, inner, own);
         }
         let Some(factory) = self.find(id) else {
             let nearest = nearest(id, self.factories.iter().map(|f| f.id()));
@@ -84,13 +84,14 @@ impl Extend<Arc<dyn Factory>> for Registry {
     }
 }
 
-/// Adds the combinator's own parameter to the names offered for one that the inner method does not know.
-fn offer_guard_level(error: BuildError) -> BuildError {
+/// Adds the combinator's own parameters to the names offered for one that the inner method does not know.
+fn offer_guards(error: BuildError) -> BuildError {
     match error {
         BuildError::UnknownParameter { method, parameter, mut nearest } => {
-            let own = factory::offer(&Guarded::param());
-            if !nearest.contains(&own) {
-                nearest.push(own);
+            for own in Guarded::params().iter().map(factory::offer) {
+                if !nearest.contains(&own) {
+                    nearest.push(own);
+                }
             }
             BuildError::UnknownParameter { method, parameter, nearest }
         }

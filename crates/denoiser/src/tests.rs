@@ -1,6 +1,10 @@
+mod guarded;
+
 use std::sync::Arc;
 
-use noisefloor_frame::{Estimate, FeatureId, Flash, Frame, FrameError, Image, Samples, Sampling, Variance};
+use noisefloor_frame::{
+    Estimate, FeatureId, Flash, Frame, FrameError, Image, Optional, Samples, Sampling, Statistic, Variance,
+};
 use noisefloor_stats::{Level, t_quantile};
 use serde_json::{Map, Value, json};
 
@@ -37,6 +41,12 @@ fn frame(mean: Image, variance: f32, n: u32) -> Frame {
 
 fn row(values: [f32; 4]) -> Image {
     Image::from_fn(4, 1, 3, |_, x, _| values[x])
+}
+
+/// Of a frame of one row: 0.4 everywhere.
+fn statistics<const N: usize>(of: [Statistic; N]) -> Optional {
+    let recorded = of.map(|statistic| (statistic, vec![row([0.4; 4])]));
+    Optional::new(recorded.to_vec(), None, vec![]).unwrap()
 }
 
 fn overrides(value: Value) -> Map<String, Value> {
@@ -147,7 +157,10 @@ fn each_need_is_met_by_what_it_names_and_by_nothing_less() {
         Need::FeatureVariance(FeatureId::Albedo),
         Need::Flash,
         Need::FlashVariance,
+        Need::ThirdMoment,
+        Need::Extremes,
     ];
+    full.optional = statistics([Statistic::ThirdMoment, Statistic::Least, Statistic::Greatest]);
     for need in &needs {
         assert!(need.is_met(&full) && !need.is_met(&bare), "{need}");
     }
@@ -157,6 +170,8 @@ fn each_need_is_met_by_what_it_names_and_by_nothing_less() {
     assert!(!Need::FeatureVariance(FeatureId::Albedo).is_met(&full));
     full.samples = Samples::per_pixel(vec![9, 9, 1, 9]);
     assert!(!Need::Samples(2).is_met(&full), "every pixel counts");
+    full.optional = statistics([Statistic::Least]);
+    assert!(!Need::ThirdMoment.is_met(&full) && !Need::Extremes.is_met(&full));
 }
 
 choices! {

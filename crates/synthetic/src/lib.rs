@@ -30,6 +30,7 @@ mod random;
 mod render;
 mod sampled;
 mod scene;
+mod statistics;
 
 pub use classes::Classes;
 pub use error::SyntheticError;

@@ -11,6 +11,11 @@ use crate::{SyntheticScene, features};
 /// Purpose of the colour's random numbers; the features have others.
 const COLOR: u64 = 0;
 
+/// The random numbers of a pixel's colour.
+pub(crate) fn color_stream(seed: u64, pixel: usize) -> Stream {
+    Stream::new(seed, COLOR, pixel)
+}
+
 impl SyntheticScene {
     /// Draws `spp` independent samples per pixel (at least one) and keeps their statistics: mean, variance of
     /// the mean, halves by parity of the sample index; variance and halves only from 2 samples on. The guide
@@ -24,7 +29,7 @@ impl SyntheticScene {
         let plane = truth.pixels();
         let color = estimate(self.width, self.height, spp, |pixel| {
             let mean = [0, 1, 2].map(|c| f64::from(truth.data()[c * plane + pixel]));
-            self.sample_pixel(mean, spp, Stream::new(seed, COLOR, pixel))
+            self.sample_pixel(mean, spp, color_stream(seed, pixel))
         });
         let mut frame = Frame::from_color(color, Samples::uniform(spp), Sampling::Independent);
         features::add(self, &mut frame, &truth, spp, seed);

@@ -7,6 +7,7 @@ use noisefloor_frame::{Frame, Image};
 use noisefloor_stats::{Truth, bound_violations, half_widths};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene};
 
+use crate::case::STATISTICS;
 use crate::trial::{Trial, completed, observed};
 use crate::{Broken, Outcome, Tolerance, Violation};
 
@@ -24,7 +25,9 @@ fn frames() -> Vec<Known> {
     let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, SIZE.0, SIZE.1)
         .expect("the law and the size of this file are in range");
     let truth = scene.truth().mean().clone();
-    SPP.iter().map(|&n| (format!("{n} normal samples"), scene.render(n, 41), truth.clone())).collect()
+    SPP.iter()
+        .map(|&n| (format!("{n} normal samples"), scene.render_with(n, 41, &STATISTICS), truth.clone()))
+        .collect()
 }
 
 pub(super) fn run(trial: &mut Trial<'_>) -> Result<Outcome, Violation> {

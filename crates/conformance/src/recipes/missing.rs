@@ -1,7 +1,7 @@
 //! Inputs that are not there.
 
 use noisefloor_denoiser::{Input, Need};
-use noisefloor_frame::{FeatureId, Flash, Frame, Samples, Sampling};
+use noisefloor_frame::{FeatureId, Flash, Frame, Optional, Samples, Sampling};
 
 use crate::case::complete;
 use crate::trial::{Trial, completed};
@@ -46,6 +46,7 @@ fn take(frame: &mut Frame, need: &Need) {
             Some(Flash::Ready(flash)) => flash.variance = None,
             None => {}
         },
+        Need::ThirdMoment | Need::Extremes => frame.optional = Optional::default(),
         _ => {}
     }
 }

@@ -5,7 +5,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::OnceLock;
 
 use noisefloor_denoiser::{DenoiseError, Figure, Input, Method, MethodCard, Output};
-use noisefloor_frame::Frame;
+use noisefloor_frame::{Frame, Statistic};
 use noisefloor_synthetic::{ImageKind, MeanImage, SampleLaw, SyntheticScene, hard_case};
 
 use noisefloor_study::Bits;
@@ -34,6 +34,9 @@ const CASES: [&str; 18] = [
     "smaller than any window",
 ];
 
+/// Optional statistics that methods can need.
+const STATISTICS: [Statistic; 3] = [Statistic::ThirdMoment, Statistic::Least, Statistic::Greatest];
+
 /// Neighbouring frames on each side that are tried at most.
 const NEIGHBORS: usize = 2;
 
@@ -53,7 +56,7 @@ fn frames() -> &'static Frames {
             cases: CASES.iter().filter_map(|name| hard_case(name)).map(|case| case.frame().0).collect(),
             moments: scene
                 .iter()
-                .flat_map(|scene| moments.clone().map(|k| scene.render(8, 100 + k)))
+                .flat_map(|scene| moments.clone().map(|k| scene.render_with(8, 100 + k, &STATISTICS)))
                 .collect(),
         }
     })
@@ -173,7 +176,7 @@ fn add_output(bits: &mut Bits, output: &Output) {
 #[cfg(test)]
 mod tests {
     use noisefloor_denoiser::{Citation, Denoiser, Guarded, MonteCarlo, Registry, Unit, mc};
-    use noisefloor_stats::Level;
+    use noisefloor_stats::{Level, family};
     use serde_json::{Map, json};
 
     use super::*;
@@ -262,6 +265,12 @@ mod tests {
         let levels = [Level::TWO_SIDED_95, Level::TWO_SIDED_99].map(|level| fingerprint(&guarded(level)));
         assert_ne!(levels[0], levels[1]);
         assert_ne!(levels[0], fingerprint(&built(Box::new(MonteCarlo))));
+        // Frames that have every statistic tell apart what needs the same of them.
+        let by = |id| {
+            let guarded = Guarded::new(Box::new(MonteCarlo), Level::TWO_SIDED_95);
+            built(Box::new(guarded.with_interval(family(id).unwrap())))
+        };
+        assert_ne!(fingerprint(&by("hall")), fingerprint(&by("johnson")));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Deref;
 
-use noisefloor_frame::{Fidelity, Finding, Reference};
+use noisefloor_frame::{Fidelity, Finding, Reference, Statistic};
 use noisefloor_questions::PixelClasses;
 use noisefloor_render::{Keep, Quantity};
 use noisefloor_study::plan::ReferenceRange;
@@ -42,7 +42,8 @@ impl Deref for Scene {
 
 enum Source {
     Rendered(Box<Rendered>),
-    Synthetic(SyntheticScene),
+    /// With the optional statistics that its frames get.
+    Synthetic(SyntheticScene, Vec<Statistic>),
     Imported(Imported),
 }
 
@@ -62,7 +63,7 @@ impl Scene {
             }
             SceneSource::Synthetic(scene) => {
                 let (opened, scene) = synthetic::open(study, spec, scene, size)?;
-                Ok(Self::of(opened, Source::Synthetic(scene)))
+                Ok(Self::of(opened, Source::Synthetic(scene, study.optional_statistics())))
             }
             SceneSource::Folder(path) => {
                 let (opened, imported) = folder::open(spec, path)?;
@@ -164,7 +165,7 @@ impl Scene {
     pub(crate) fn camera_samples(&self, spp: u64) -> u64 {
         match self.source {
             Source::Rendered(_) => (self.width * self.height) as u64 * spp,
-            Source::Synthetic(_) | Source::Imported(_) => 0,
+            Source::Synthetic(..) | Source::Imported(_) => 0,
         }
     }
 
@@ -187,8 +188,8 @@ impl Scene {
                 let frame = rendered.frame(spec, row, cache, observer)?;
                 (frame, Fidelity::Rounded, self.name_of(spec, row))
             }
-            Source::Synthetic(scene) => {
-                let frame = synthetic::frame(scene, spec, cache, observer)?;
+            Source::Synthetic(scene, statistics) => {
+                let frame = synthetic::frame((scene, statistics), spec, cache, observer)?;
                 (frame, Fidelity::Rounded, self.name_of(spec, row))
             }
             Source::Imported(folder) => {
@@ -231,7 +232,7 @@ impl Scene {
     ) -> Result<(Reference, Vec<Finding>), HarnessError> {
         match &self.source {
             Source::Rendered(rendered) => Ok((rendered.reference(&self.id, cache, observer)?, Vec::new())),
-            Source::Synthetic(scene) => Ok((scene.truth(), Vec::new())),
+            Source::Synthetic(scene, _) => Ok((scene.truth(), Vec::new())),
             Source::Imported(folder) => {
                 let (reference, found) = folder.reference()?;
                 let name = format!("{}: reference", self.id);
@@ -244,7 +245,7 @@ impl Scene {
     pub(crate) fn classes(&self, reference: &Reference) -> Result<PixelClasses, HarnessError> {
         match &self.source {
             Source::Rendered(rendered) => rendered.classes(reference),
-            Source::Synthetic(scene) => Ok(PixelClasses::from(scene.classes())),
+            Source::Synthetic(scene, _) => Ok(PixelClasses::from(scene.classes())),
             Source::Imported(_) => Ok(PixelClasses::from_reference(reference)),
         }
     }

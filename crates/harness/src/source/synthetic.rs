@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use noisefloor_frame::{Frame, Sampling};
+use noisefloor_frame::{Frame, Sampling, Statistic};
 use noisefloor_questions::PixelClasses;
 use noisefloor_study::{Bits, Key, Place, SceneSpec, Study, StudyError, hash_of_frame, key_of};
 use noisefloor_synthetic::SyntheticScene;
@@ -31,17 +31,26 @@ pub(super) fn open(
         None => scene.clone(),
     };
     let description = serde_json::to_value(&scene).unwrap_or_default();
-    let (drawn, truth) = synthetic_probes(&scene);
+    let (drawn, truth) = synthetic_probes(&scene, &[]);
+    let (with_statistics, _) = synthetic_probes(&scene, &study.optional_statistics());
     // Frames of a sequence have random numbers of their own.
     let frame = spec.shot.frame;
     let identity = if frame == 0 { description.clone() } else { json!([description, frame]) };
+    let statistics: Vec<String> = study.optional_statistics().iter().map(ToString::to_string).collect();
     let frames = frame_specs(study, spec, &identity, |spp, seed| {
-        key_of(&json!({ "synthetic": description, "drawn": drawn, "spp": spp, "seed": seed }))
+        let mut of = json!({ "synthetic": description, "drawn": drawn, "spp": spp, "seed": seed });
+        if !statistics.is_empty() {
+            of["statistics"] = json!([statistics, with_statistics]);
+        }
+        key_of(&of)
     });
-    let settings = BTreeMap::from([
+    let mut settings = BTreeMap::from([
         ("seed".to_owned(), study.seed.to_string()),
         ("samples".to_owned(), description.to_string()),
     ]);
+    if !statistics.is_empty() {
+        settings.insert("optional statistics".to_owned(), statistics.join(", "));
+    }
     let opened = Opened {
         id: spec.id.clone(),
         title: spec.id.clone(),
@@ -67,22 +76,22 @@ pub(super) fn open(
 
 /// Draws a frame, or reads it: others can compute what is said of it from the file.
 pub(super) fn frame(
-    scene: &SyntheticScene,
+    (scene, statistics): (&SyntheticScene, &[Statistic]),
     spec: &FrameSpec,
     cache: &Cache,
     observer: &dyn Observer,
 ) -> Result<Frame, HarnessError> {
-    cache.frame(&spec.key, observer, || Ok(scene.render(spec.spp, spec.seed)))
+    cache.frame(&spec.key, observer, || Ok(scene.render_with(spec.spp, spec.seed, statistics)))
 }
 
-/// Hashes of a tiny frame of a synthetic scene and of its truth with the classes of its pixels: they change whenever other
-/// numbers are drawn.
-fn synthetic_probes(scene: &SyntheticScene) -> (Key, Key) {
+/// Hashes of a tiny frame of a synthetic scene, with these statistics, and of its truth with the classes of its pixels: they
+/// change whenever other numbers are drawn.
+fn synthetic_probes(scene: &SyntheticScene, statistics: &[Statistic]) -> (Key, Key) {
     let (width, height) = (scene.width().min(PROBE[0]), scene.height().min(PROBE[1]));
     // Never larger than a size that is allowed.
     let small = scene.resized(width, height).unwrap_or_else(|_| scene.clone());
     let mut truth = Bits::of("truth");
     truth.frame(&small.truth().frame);
     PixelClasses::from(small.classes()).add_to(&mut truth);
-    (hash_of_frame(&small.render(PROBE_SPP, 0)), truth.finish())
+    (hash_of_frame(&small.render_with(PROBE_SPP, 0, statistics)), truth.finish())
 }

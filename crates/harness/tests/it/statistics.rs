@@ -66,6 +66,43 @@ fn the_bound_of_a_guarded_method_holds_for_normal_samples() {
 }
 
 #[test]
+fn a_guard_by_skewness_asks_the_study_for_the_third_moment() {
+    let asking = |statistics: &str| {
+        study(&format!(
+            r#"
+            name = "skewed"
+            spp = 8
+            replicates = 2
+            {statistics}
+            timing = {{ warmup = 0, runs = 1 }}
+            [[scene]]
+            id = "flats"
+            synthetic = {{ image = "flats", law = "exponential", width = 32, height = 24, guides = "none" }}
+            [[method]]
+            id = "mc"
+            [[method]]
+            id = "guarded(blur)"
+            set = {{ guard_interval = "hall" }}
+            "#
+        ))
+    };
+    let (_place, without) = run(&asking(""));
+    assert!(without.skipped[0].reason.contains("`statistics = [\"third-moment\"]`"), "{:?}", without.skipped);
+    let (place, with) = run(&asking("statistics = [\"third-moment\"]"));
+    assert!(with.skipped.is_empty(), "{:?}", with.skipped);
+    let bounds: Vec<_> = with.bounds.iter().filter(|b| b.class == "all").collect();
+    assert_eq!(bounds.len(), 1);
+    assert!(bounds[0].claim.contains("`hall`") && !bounds[0].proven, "{:?}", bounds[0]);
+    let guarded = records(&place.out()).into_iter().find(|r| r.label.starts_with("guarded")).unwrap();
+    assert!(guarded.enclosures.is_empty(), "none is claimed");
+    // The statistic costs the frames that have it a key of their own, and changes no sample.
+    let errors = |summary: &Summary| -> Vec<_> {
+        summary.cells.iter().filter(|c| c.label == "mc").map(|c| c.metrics["mse"].value).collect()
+    };
+    assert_eq!(errors(&with), errors(&without));
+}
+
+#[test]
 fn rare_events_break_coverage_and_the_bound_and_are_counted_apart() {
     let (_place, summary) = run(&law("law = \"bernoulli\", q = 0.01", "[16]"));
     let wide = summary.coverage.iter().find(|c| c.class == "all" && c.confidence == 0.99).unwrap();

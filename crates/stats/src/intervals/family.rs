@@ -29,6 +29,11 @@ pub trait IntervalFamily: std::fmt::Debug + Send + Sync {
     /// Citation; `none: …` with the reason where no theorem is known that gives the level.
     fn source(&self) -> &'static str;
 
+    /// Whether a two-sided level limits both ends.
+    fn has_both_ends(&self) -> bool {
+        true
+    }
+
     /// What it needs beside means, variances and counts.
     fn needs(&self) -> &'static [IntervalNeed];
 

@@ -40,6 +40,10 @@ impl IntervalFamily for LowerT {
         SOURCE
     }
 
+    fn has_both_ends(&self) -> bool {
+        false
+    }
+
     fn needs(&self) -> &'static [IntervalNeed] {
         &[]
     }
@@ -64,6 +68,10 @@ impl IntervalFamily for UpperT {
 
     fn source(&self) -> &'static str {
         SOURCE
+    }
+
+    fn has_both_ends(&self) -> bool {
+        false
     }
 
     fn needs(&self) -> &'static [IntervalNeed] {

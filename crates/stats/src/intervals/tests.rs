@@ -138,6 +138,16 @@ fn an_upper_level_leaves_all_of_alpha_above_and_no_lower_end() {
 }
 
 #[test]
+fn a_family_has_the_ends_that_it_says() {
+    let everything = Everything::scaled(0);
+    for family in FAMILIES {
+        let all = of(family.id(), &everything.planes(8), Level::TWO_SIDED_95);
+        let both = all.low.iter().chain(&all.high).all(|end| end.is_finite());
+        assert_eq!(both, family.has_both_ends(), "{}", family.id());
+    }
+}
+
+#[test]
 fn samples_that_are_not_skewed_have_the_t_interval() {
     let mut everything = Everything::scaled(0);
     everything.0[2].fill(0.0);

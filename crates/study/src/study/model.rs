@@ -42,7 +42,7 @@ pub struct Study {
     /// Where along a path features are taken.
     #[serde(default)]
     pub feature_hit: FeatureHit,
-    /// Optional statistics of the colour that rendered frames get, by their names, each once: see
+    /// Optional statistics of the colour that rendered and drawn frames get, by their names, each once: see
     /// [`noisefloor_frame::Statistic`]. Frames of folders have their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub statistics: Vec<String>,

@@ -7,7 +7,7 @@ use crate::study::lines::{Lines, quoted};
 use crate::study::model::Study;
 
 impl Study {
-    /// The optional statistics that rendered frames get; those without a meaning, which [`Study::check`] refuses, are left
+    /// The optional statistics that rendered and drawn frames get; those without a meaning, which [`Study::check`] refuses, are left
     /// out.
     #[must_use]
     pub fn optional_statistics(&self) -> Vec<Statistic> {
