@@ -119,6 +119,9 @@ pub struct MethodCard {
     pub neighbors: usize,
     /// Promises.
     pub claims: Claims,
+    /// Whether its estimate of its own error is unbiased for a filter that does not follow the noise, normal noise, and a
+    /// variance that is known: what SURE promises. Such a method shows whether variance or estimate is wrong.
+    pub unbiased_estimate: bool,
     /// What the result depends on although it should not, each with the reason; everything else in [`Invariance`] is a
     /// promise that is tested.
     pub varies_with: Vec<(Invariance, String)>,
@@ -146,6 +149,7 @@ impl MethodCard {
             named_features: Vec::new(),
             neighbors: 0,
             claims: Claims::default(),
+            unbiased_estimate: false,
             varies_with: Vec::new(),
             caveats: Vec::new(),
             cost: Cost::Second,

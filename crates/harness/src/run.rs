@@ -9,6 +9,7 @@ mod prepare;
 mod request;
 mod runner;
 mod scene;
+mod self_check;
 mod settle;
 
 use std::collections::BTreeSet;
@@ -66,6 +67,8 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     let work = workload(&plan, &cache, &layout, &kept);
     let mut context = begin(request, &plan, &layout, &work)?;
     request.observer.planned(&work);
+    context.self_check = self_check::self_check(request, run)?;
+    write_json(&layout.context(), &context)?;
     for place in 0..plan.scenes.len() {
         let runner =
             runner::Runner { request, plan: &plan, layout: &layout, cache: &cache, place, owners: &owners };
@@ -101,6 +104,7 @@ fn begin(
         methods,
         plan: plan.scenes.iter().map(planned).collect(),
         scenes: Vec::new(),
+        self_check: Vec::new(),
         flicker: Vec::new(),
     };
     write_json(&layout.context(), &context)?;

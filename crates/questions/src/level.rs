@@ -28,10 +28,16 @@ pub type Outputs = Vec<(u32, Image)>;
 pub struct LevelCell<'a> {
     /// The study that asks.
     pub study: &'a Study,
+    /// Scene id.
+    pub scene: &'a str,
     /// Samples per pixel.
     pub spp: u32,
     /// The truth.
     pub reference: &'a Reference,
+    /// Its samples per pixel; 0 if exact or unknown.
+    pub reference_spp: u64,
+    /// Value of every pixel and channel, where a formula gives it.
+    pub known_mean: Option<f64>,
     /// What to tell apart.
     pub classes: &'a PixelClasses,
     /// The study's own frames, by replicate.

@@ -14,6 +14,7 @@ mod equal_time;
 mod error;
 mod flicker;
 mod growth;
+mod instrument;
 mod level;
 mod list;
 mod measuring;
@@ -32,6 +33,9 @@ pub use cell::{Cell, Measure, MeasureError, PixelClasses, UnknownClass};
 pub use document::document;
 pub use error::{BOOTSTRAP_IMAGES, bootstrap_seed, measure_metrics};
 pub use flicker::{Images, Sequences, flicker};
+pub use instrument::{
+    Check, SELF_CHECK, SELF_CHECK_SIZE, checks, failed_checks, self_check_study, self_checks,
+};
 pub use level::{LevelCell, LevelFound, LevelFrame, Map, Outputs};
 pub use list::{QUESTIONS, measure, measure_level};
 pub use measuring::{measuring, measuring_of, measuring_of_levels};

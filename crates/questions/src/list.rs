@@ -6,8 +6,8 @@ use crate::cell::{Cell, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
-    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth, own_error,
-    paper, statistics,
+    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth,
+    instrument, own_error, paper, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -25,6 +25,7 @@ pub const QUESTIONS: &[Question] = &[
     equal_time::QUESTION,
     flicker::QUESTION,
     breakage::QUESTION,
+    instrument::QUESTION,
 ];
 
 /// Puts questions to a finished cell.

@@ -51,7 +51,10 @@ fn levels() -> Result<Value, Wrong> {
         let classes = PixelClasses::from_reference(reference);
         let level = LevelCell {
             study: &study,
+            scene: "fixed",
             spp: 8,
+            reference_spp: 256,
+            known_mean: Some(1.0),
             reference,
             classes: &classes,
             frames: &frames,

@@ -39,6 +39,7 @@ pub(crate) fn card(id: &str, only: Option<Choice>, params: &Params) -> MethodCar
     card.cost = Cost::TenSeconds;
     if only.is_some() {
         card.role = Role::Part;
+        card.unbiased_estimate = true;
     }
     card.needs = vec![Need::ColorVariance, Need::ColorHalves, Need::Samples(2)];
     for name in &params.features {

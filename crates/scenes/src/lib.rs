@@ -26,6 +26,7 @@ mod sequence;
 pub mod shape;
 pub mod texture;
 
+pub use analytic::closed_form;
 pub use animation::{Animation, Body, CameraMove, Spin};
 pub use camera::{CameraSpec, Lens};
 pub use catalog::{SceneEntry, UnknownScene, builtin, find};

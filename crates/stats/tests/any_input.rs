@@ -203,3 +203,106 @@ fn counts_over_pixels_take_anything() {
         }
     }
 }
+
+#[test]
+fn rates_bands_and_events_take_anything() {
+    let mut picks = Picks(4);
+    for _ in 0..3000 {
+        let level = picks.level();
+        let (hits, trials) =
+            (picks.next() % 40, [0, 1, 7, 39, 100_000_001, u64::MAX][(picks.next() % 6) as usize]);
+        if let Ok(interval) = clopper_pearson(hits, trials, level) {
+            let (low, high) = (interval.low.unwrap(), interval.high.unwrap());
+            assert!(
+                low <= interval.value && interval.value <= high && low >= 0.0 && high <= 1.0,
+                "{interval:?}"
+            );
+        }
+        for p in [
+            binomial_two_sided_p(hits, trials, picks.number()),
+            binomial_p_against(hits, trials, picks.number(), picks.number()),
+        ]
+        .into_iter()
+        .flatten()
+        {
+            assert!((0.0..=1.0).contains(&p), "{p}");
+        }
+        let (values, points) = ((picks.next() % 9) as usize, (picks.next() % 5) as usize);
+        if let Ok(band) = EcdfBand::new(values, points, picks.number()) {
+            assert!(band.gamma > 0.0 && band.probability <= 1.0 + 1e-12, "{band:?}");
+            let numbers: Vec<f64> = (0..values).map(|_| picks.number()).collect();
+            let _ = band.contains(&ecdf(&numbers, points));
+        }
+        let _ = instrument::bernoulli_coverage(picks.number(), (picks.next() % 9) as u32, level);
+        let missed = instrument::missed_by_all(picks.number(), picks.next() as u32);
+        assert!(missed.is_nan() || (0.0..=1.0).contains(&missed));
+        let _ = instrument::shrunk(picks.number(), picks.number(), picks.number());
+    }
+}
+
+#[test]
+fn replicates_and_checks_of_the_instrument_take_anything() {
+    let mut picks = Picks(5);
+    for _ in 0..2000 {
+        let (width, height) = ((picks.next() % 4) as usize, (picks.next() % 3) as usize);
+        let pixels = width * height;
+        let count = if picks.next().is_multiple_of(8) { picks.next() as usize % 7 } else { 3 * pixels };
+        let mut plane = || (0..count).map(|_| picks.number() as f32).collect::<Vec<f32>>();
+        let planes: Vec<_> = (0..6).map(|_| plane()).collect();
+        let counts: Vec<u32> = (0..pixels).map(|_| (picks.next() % 5) as u32).collect();
+        let weight: Vec<f64> = (0..count).map(|_| picks.number()).collect();
+        let level = picks.level();
+        let of_pixel: Vec<u8> = (0..pixels).map(|_| (picks.next() % 4) as u8).collect();
+        let groups = Some(Groups { of_pixel: &of_pixel, count: 3 });
+        let frame = |k: usize| Observed {
+            mean: &planes[k],
+            variance: &planes[k + 1],
+            counts: SampleCounts::PerPixel(&counts),
+            pixels,
+            valid: None,
+        };
+        let frames = [frame(0), frame(1)];
+        let _ = leave_one_out(&frames, level, groups);
+        let truth = Truth { mean: &planes[3], variance: Some(&planes[4]) };
+        let chosen: Vec<usize> = (0..count).collect();
+        if let Ok(found) = pit(&frames[0], &truth, &chosen, picks.next()) {
+            assert!(found.values.iter().all(|u| (0.0..=1.0).contains(u)), "{found:?}");
+        }
+        let slices: Vec<&[f32]> = planes.iter().map(Vec::as_slice).collect();
+        for noise in [
+            ReferenceNoise::Exact,
+            ReferenceNoise::Unknown,
+            ReferenceNoise::Variance(slices[4]),
+            ReferenceNoise::Halves {
+                halves: [slices[4], slices[5]],
+                parts: [&slices[..2], &slices[2..(2 + picks.next() as usize % 3)]],
+            },
+        ] {
+            let replicates = Replicates { images: &slices[..3], pixels, valid: None, weight: Some(&weight) };
+            if let Ok(found) = bias_variance(&replicates, &BiasReference { mean: slices[3], noise }, groups) {
+                for total in found.totals.iter().flatten() {
+                    assert!(total.variance.value >= 0.0, "{total:?}");
+                    let _ = (total.bias.interval(level), total.variance.interval(level));
+                }
+            }
+        }
+        let halved = instrument::HalvedFrame {
+            observed: frames[0],
+            halves: [slices[2], slices[3]],
+            in_a: SampleCounts::Uniform(2),
+        };
+        let ratio = instrument::half_variance_ratio(&[halved, halved], width, None);
+        let samples = Some(picks.number());
+        let reference = instrument::SampledTruth { truth, samples };
+        let bright = instrument::brightness(&frames, &reference, true, width, groups);
+        let means = instrument::FrameMeans { mean: slices[0], halves: Some([slices[1], slices[2]]) };
+        let blocks = instrument::Blocks::new(width, height);
+        let shared = instrument::dependence(&[means], slices[3], [slices[4], slices[5]], &blocks, None);
+        let shared = shared.iter().flat_map(|found| &found.centres);
+        for outcome in ratio.iter().chain(bright.iter().flat_map(|found| found.all())).chain(shared) {
+            if let Some(tested) = outcome.tested() {
+                assert!((0.0..=1.0).contains(&tested.adjusted) && tested.p <= tested.adjusted, "{tested:?}");
+            }
+        }
+    }
+}

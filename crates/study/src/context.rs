@@ -6,6 +6,7 @@ use noisefloor_frame::{Finding, Integrator, Sampling};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::check::CheckRecord;
 use crate::summary::{Environment, MethodSummary};
 use crate::{Flicker, Key, Maps};
 
@@ -28,6 +29,9 @@ pub struct Context {
     /// Each kept in a file of its own, from the moment that its cells begin; all together here in a recorded study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<SceneContext>,
+    /// What the instrument found of itself, apart from scenes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub self_check: Vec<CheckRecord>,
     /// What was measured over the frames of sequences, in a recorded study: it takes images.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub flicker: Vec<Flicker>,

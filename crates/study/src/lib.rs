@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bits;
+pub mod check;
 pub mod context;
 mod error;
 pub mod exhibit;

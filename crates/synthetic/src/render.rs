@@ -1,7 +1,7 @@
 //! Draws the samples of a frame.
 
 use noisefloor_frame::{
-    BLOCK_SAMPLES, BlockTree, Camera, Frame, Moments, PixelFilter, Provenance, Samples, Sampling,
+    BLOCK_SAMPLES, BlockTree, Camera, Frame, Moments, PixelFilter, Provenance, Samples, Sampling, Variance,
 };
 
 use crate::random::Stream;
@@ -35,6 +35,14 @@ impl SyntheticScene {
         features::add(self, &mut frame, &truth, spp, seed);
         frame.provenance = self.provenance(seed);
         frame
+    }
+
+    /// The variance of the mean of `spp` samples, exactly: that of the law, over the samples.
+    #[must_use]
+    pub fn variance(&self, spp: u32) -> Variance {
+        let n = f64::from(spp.max(1));
+        let of_mean = |mean: f32| (self.law.variance(f64::from(mean)) / n) as f32;
+        Variance::of_mean(self.image.image(self.width, self.height).map(of_mean))
     }
 
     fn sample_pixel(&self, mean: [f64; 3], spp: u32, mut stream: Stream) -> Sampled<3> {

@@ -76,6 +76,7 @@ fn context(study: &Study, summary: &Summary, records: &[Record]) -> Context {
             .collect(),
         plan: plan.collect(),
         scenes: scenes.collect(),
+        self_check: Vec::new(),
         flicker: Vec::new(),
     }
 }

@@ -95,7 +95,8 @@ impl<'a> Inputs<'a> {
         let check = self.against.frame(frame, invalid, mean);
         // Rounds begin with the samples of the uniform frame of the same seed: their rows are never compared as if they
         // were independent.
-        if !placed {
+        // A frame with its law's variance is the study's own otherwise.
+        if !placed && spec.kind != FrameKind::KnownVariance {
             let page = Page { spp: spec.samples(), replicate: spec.replicate, sketch: check.sketch };
             self.book.frames.insert(place(spec), page);
             self.together(context)?;

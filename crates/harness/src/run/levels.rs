@@ -141,8 +141,11 @@ fn measure(
     };
     let cell = LevelCell {
         study: runner.request.study,
+        scene: &scene.id,
         spp: level.spp,
         reference,
+        reference_spp: scene.reference_spp,
+        known_mean: scene.known_mean,
         classes,
         frames: &frames,
         intervals: runner.request.laboratory.intervals,

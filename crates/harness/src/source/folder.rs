@@ -84,6 +84,7 @@ pub(super) fn open(spec: &SceneSpec, path: &Path) -> Result<(Opened, Imported), 
         reference_key: file_key(&folder.reference, info, &options)?,
         reference_spp: info.spp.map_or(0, |spp| spp.round() as u64),
         reference_sampling: info.sampling.name().to_owned(),
+        known_mean: None,
         equal_time_spp: None,
     };
     Ok((opened, Imported { files, reference: folder.reference.clone(), options }))

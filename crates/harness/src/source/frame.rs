@@ -23,6 +23,8 @@ pub(crate) enum FrameKind {
     Uniform,
     /// So many samples in every pixel instead of the level's.
     Samples(u32),
+    /// With the variance of their law.
+    KnownVariance,
     /// Rendered in rounds.
     Adaptive(AdaptiveFrames),
 }
@@ -32,7 +34,7 @@ impl FrameSpec {
     pub(crate) fn samples(&self) -> u32 {
         match self.kind {
             FrameKind::Samples(spp) => spp,
-            FrameKind::Uniform | FrameKind::Adaptive(_) => self.spp,
+            FrameKind::Uniform | FrameKind::KnownVariance | FrameKind::Adaptive(_) => self.spp,
         }
     }
 }
@@ -41,7 +43,7 @@ impl FrameKind {
     /// In the words of the plan.
     pub(crate) fn placed(self) -> Placed {
         match self {
-            Self::Uniform => Placed::Uniform,
+            Self::Uniform | Self::KnownVariance => Placed::Uniform,
             Self::Samples(_) => Placed::Samples,
             Self::Adaptive(_) => Placed::Rounds,
         }

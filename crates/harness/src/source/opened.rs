@@ -30,6 +30,8 @@ pub(crate) struct Opened {
     pub(crate) reference_spp: u64,
     /// Sampling of the reference, or `exact`.
     pub(crate) reference_sampling: String,
+    /// Value of every pixel and channel, where a formula gives it.
+    pub(crate) known_mean: Option<f64>,
     /// Samples per pixel of frames of equal time.
     pub(crate) equal_time_spp: Option<u32>,
 }

@@ -106,6 +106,7 @@ impl Scene {
             (Source::Rendered(rendered), RowFrames::Adaptive(adaptive), _) => {
                 rendered.in_rounds(frame, *adaptive, row)
             }
+            (Source::Synthetic(..), RowFrames::KnownVariance, _) => synthetic::with_known_variance(frame),
             // The study's checks leave no other rows with frames of their own.
             _ => frame.clone(),
         }
@@ -210,6 +211,7 @@ impl Scene {
         let name = format!("{} at {} spp, replicate {}", self.id, spec.spp, spec.replicate);
         match (spec.kind, row) {
             (FrameKind::Adaptive(_), Some(row)) => format!("{name}, frame of {}", row.label),
+            (FrameKind::KnownVariance, _) => format!("{name}, with its law's variance"),
             (FrameKind::Samples(spp), _) => format!("{name}, frame of {spp} samples"),
             _ => name,
         }

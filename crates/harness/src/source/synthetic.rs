@@ -11,7 +11,7 @@ use serde_json::json;
 use crate::cache::Cache;
 use crate::error::HarnessError;
 use crate::observer::Observer;
-use crate::source::frame::{FrameSpec, frame_specs};
+use crate::source::frame::{FrameKind, FrameSpec, frame_specs};
 use crate::source::opened::Opened;
 use crate::source::probe::{PROBE, PROBE_SPP};
 
@@ -69,6 +69,7 @@ pub(super) fn open(
         reference_key: key_of(&json!({ "truth": description, "drawn": truth })),
         reference_spp: 0,
         reference_sampling: "exact".into(),
+        known_mean: None,
         equal_time_spp: None,
     };
     Ok((opened, scene))
@@ -81,7 +82,19 @@ pub(super) fn frame(
     cache: &Cache,
     observer: &dyn Observer,
 ) -> Result<Frame, HarnessError> {
-    cache.frame(&spec.key, observer, || Ok(scene.render_with(spec.spp, spec.seed, statistics)))
+    cache.frame(&spec.key, observer, || {
+        let mut frame = scene.render_with(spec.spp, spec.seed, statistics);
+        if spec.kind == FrameKind::KnownVariance {
+            frame.color.variance = Some(scene.variance(spec.spp));
+        }
+        Ok(frame)
+    })
+}
+
+/// The same frame with the variance of its law.
+pub(super) fn with_known_variance(frame: &FrameSpec) -> FrameSpec {
+    let key = key_of(&json!({ "frame": frame.key, "variance": "known" }));
+    FrameSpec { key, kind: FrameKind::KnownVariance, ..frame.clone() }
 }
 
 /// Hashes of a tiny frame of a synthetic scene, with these statistics, and of its truth with the classes of its pixels: they

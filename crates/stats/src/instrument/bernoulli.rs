@@ -31,7 +31,7 @@ pub fn missed_by_all(q: f64, n: u32) -> f64 {
 /// q = 0.02, n = 4 into 100 %.
 #[must_use]
 pub fn bernoulli_coverage(q: f64, n: u32, level: Level) -> Option<BernoulliCoverage> {
-    if !(2..=1_000_000).contains(&n) || !(q > 0.0 && q < 1.0) {
+    if !((2..=1_000_000).contains(&n) && q > 0.0 && q < 1.0) {
         return None;
     }
     let t = TTable::new(level, n).at(n);

@@ -34,10 +34,10 @@ pub struct Dependence {
 ///
 /// **Standard error**, [`correlation`]'s: the larger of those over pixels and over blocks. A jackknife over the reference's
 /// parts has none of the power: if one of n_A parts of half A is the frame, that part's influence is as large as the
-/// statistic, and z never exceeds √(n_A/(n_A−1)).
+/// statistic, and z stays near √(n_A/(n_A−1)), however many pixels there are.
 ///
-/// **Power and limits.** One of n_A parts that has the frame's samples correlates by about 1/√(2·n_A), times √N standard
-/// errors in N pixels: 15 in a frame of 48×36 and 4 parts per half. Where all parts share equally with the frame A − B
+/// **Power and limits.** One of n_A parts that has the frame's samples correlates by up to 1/√(2·n_A), times √N standard
+/// errors in N pixels: about 10 in a frame of 48×36 and 4 parts per half. Where all parts share equally with the frame A − B
 /// cancels, and only seeds and hashes tell.
 ///
 /// # Errors

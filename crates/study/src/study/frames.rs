@@ -11,6 +11,8 @@ pub enum RowFrames {
     Uniform,
     /// As many samples, placed in rounds where the row's own method asks for them.
     Adaptive(AdaptiveFrames),
+    /// The study's own with the variance of their law in place of the samples' own: synthetic scenes know it.
+    KnownVariance,
     /// The same number in every pixel, as many as another row's time buys: [`crate::SceneSpec::equal_time_spp`].
     EqualTime {
         /// Label of the other row.

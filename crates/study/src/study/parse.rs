@@ -144,6 +144,7 @@ struct RawMethod {
     #[serde(default)]
     set: Map<String, Value>,
     adaptive: Option<AdaptiveFrames>,
+    variance: Option<String>,
     equal_time: Option<String>,
 }
 
@@ -245,15 +246,24 @@ const LONGEST_LINE: usize = 300;
 
 impl RawMethod {
     fn resolve(self, index: usize, line: usize, lines: &Lines<'_>) -> Result<MethodRow, StudyError> {
-        let frames = match (self.adaptive, self.equal_time) {
-            (None, None) => RowFrames::Uniform,
-            (Some(adaptive), None) => RowFrames::Adaptive(adaptive),
-            (None, Some(with)) => RowFrames::EqualTime { with },
-            (Some(_), Some(_)) => {
+        if let Some(other) = self.variance.as_ref().filter(|variance| variance.as_str() != "known") {
+            return Err(StudyError::Field {
+                place: lines.place(Some(line)),
+                field: format!("method[{index}].variance"),
+                value: format!("`{other}`"),
+                allowed: "`known`, or nothing for that of the samples".into(),
+            });
+        }
+        let frames = match (self.adaptive, self.equal_time, self.variance) {
+            (None, None, None) => RowFrames::Uniform,
+            (Some(adaptive), None, None) => RowFrames::Adaptive(adaptive),
+            (None, Some(with), None) => RowFrames::EqualTime { with },
+            (None, None, Some(_)) => RowFrames::KnownVariance,
+            _ => {
                 return Err(StudyError::Field {
                     place: lines.place(Some(line)),
                     field: format!("method[{index}]"),
-                    value: "`adaptive` and `equal_time`".into(),
+                    value: "several of `adaptive`, `equal_time` and `variance`".into(),
                     allowed: "one of them".into(),
                 });
             }

@@ -3,7 +3,7 @@
 use crate::error::StudyError;
 use crate::study::frames::{AdaptiveFrames, RowFrames};
 use crate::study::lines::Lines;
-use crate::study::model::{SceneSource, Study};
+use crate::study::model::{SceneSource, SceneSpec, Study};
 
 /// Refuses rows whose frames cannot be made.
 pub(super) fn check_frames(study: &Study, lines: &Lines<'_>) -> Result<(), StudyError> {
@@ -14,6 +14,19 @@ pub(super) fn check_frames(study: &Study, lines: &Lines<'_>) -> Result<(), Study
         let of_row = |name: &str| format!("method[{index}].{name}");
         let own = match &row.frames {
             RowFrames::Uniform => continue,
+            RowFrames::KnownVariance => {
+                let rendered = |scene: &&SceneSpec| !matches!(scene.source, SceneSource::Synthetic(_));
+                if let Some(scene) = study.scenes.iter().find(rendered) {
+                    let allowed = "synthetic scenes: nobody knows the variance of others";
+                    return wrong(
+                        row.line,
+                        of_row("variance"),
+                        format!("on scene `{}`", scene.id),
+                        allowed.into(),
+                    );
+                }
+                continue;
+            }
             RowFrames::Adaptive(adaptive) => {
                 if !(2..=64).contains(&adaptive.rounds) {
                     let allowed = "2 to 64 rounds, the first of which is uniform".into();

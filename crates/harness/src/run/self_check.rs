@@ -1,0 +1,45 @@
+//! The study that checks the instrument, run beside the study that it measures.
+
+use noisefloor_questions::{SELF_CHECK, SELF_CHECK_SIZE, self_check_study, self_checks};
+use noisefloor_study::check::CheckRecord;
+use serde_json::Map;
+
+use crate::error::HarnessError;
+use crate::observer::Silent;
+use crate::run::request::StudyRun;
+use crate::store::{Layout, Records};
+
+/// Folder inside that of the study.
+const FOLDER: &str = "instrument";
+
+/// What the instrument finds where everything is known; `run` runs a study. Nothing for the check itself.
+pub(super) fn self_check(
+    request: &StudyRun<'_>,
+    run: impl FnOnce(&StudyRun<'_>) -> Result<noisefloor_study::summary::Summary, HarnessError>,
+) -> Result<Vec<CheckRecord>, HarnessError> {
+    if request.study.name == SELF_CHECK {
+        return Ok(Vec::new());
+    }
+    let card = |factory: &std::sync::Arc<dyn noisefloor_denoiser::Factory>| {
+        let method = request.registry.build(factory.id(), &Map::new()).ok()?;
+        Some(method.denoiser.card()).filter(|card| card.unbiased_estimate)
+    };
+    let unbiased: Vec<String> =
+        request.registry.factories().iter().filter_map(card).map(|card| card.id).collect();
+    let Ok(study) = self_check_study(request.study, &unbiased) else { return Ok(Vec::new()) };
+    let out = request.out_dir.join(FOLDER);
+    let summary = run(&StudyRun {
+        study: &study,
+        registry: request.registry,
+        out_dir: &out,
+        cache_dir: request.cache_dir,
+        size: Some(SELF_CHECK_SIZE),
+        again: &[],
+        command: request.command.clone(),
+        simd: request.simd.clone(),
+        laboratory: request.laboratory,
+        observer: &Silent,
+    })?;
+    let records = Records::read(&Layout::new(&out).records())?.records;
+    Ok(self_checks(&records, &summary))
+}
