@@ -2,16 +2,16 @@
 
 mod analyse;
 mod exhibit;
+mod id;
 mod known;
 mod level;
 
 pub use analyse::{Check, checks, failed_checks};
 pub use known::{SELF_CHECK, SELF_CHECK_SIZE, self_check_study, self_checks};
 
-use crate::question::Question;
+use id::ID;
 
-/// Name of its answers on disk.
-const ID: &str = "instrument";
+use crate::question::Question;
 
 pub(crate) const QUESTION: Question = Question {
     level: level::measure,

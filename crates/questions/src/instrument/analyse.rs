@@ -4,7 +4,7 @@ use noisefloor_study::check::{CheckFound, CheckKind, CheckRecord};
 use noisefloor_study::summary::Summary;
 use serde::{Deserialize, Serialize};
 
-use super::ID;
+use super::id::ID;
 use crate::records::Index;
 
 /// Rate of false alarms of a report without a fault, all of its checks together.

@@ -4,8 +4,8 @@ use noisefloor_study::check::CheckKind;
 use noisefloor_study::exhibit::{Answer, Column, Exhibit, Number, Part, Table, TableCell, TableRow, Tone};
 use noisefloor_study::format;
 
-use super::ID;
 use super::analyse::{ALPHA, Check, checks, sentence};
+use super::id::ID;
 use crate::shown;
 use crate::view::View;
 

@@ -9,7 +9,7 @@ use noisefloor_stats::instrument::{
 use noisefloor_stats::{Observed, SampleCounts, Truth, normal_two_sided_p};
 use noisefloor_study::check::{CheckFound, CheckKind, CheckRecord};
 
-use super::ID;
+use super::id::ID;
 use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound, LevelFrame};
 

@@ -1,0 +1,2 @@
+/// Anchor in the page, and name of the answers on disk.
+pub(super) const ID: &str = "instrument";
