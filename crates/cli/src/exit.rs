@@ -19,13 +19,28 @@ pub enum Exit {
     Usage,
     /// A report was written, but of a study that is not finished, or of which cells ended in an error.
     Unfinished,
+    /// A gate found something that is worse.
+    Worse,
+    /// The two results of a gate are not of the same inputs.
+    NotComparable,
+    /// A strict gate could not tell whether something changed.
+    Untold,
     /// Stopped by Ctrl-C.
     Interrupted,
 }
 
 impl Exit {
     /// All, by their number.
-    pub const ALL: [Self; 5] = [Self::Done, Self::Failed, Self::Usage, Self::Unfinished, Self::Interrupted];
+    pub const ALL: [Self; 8] = [
+        Self::Done,
+        Self::Failed,
+        Self::Usage,
+        Self::Unfinished,
+        Self::Worse,
+        Self::NotComparable,
+        Self::Untold,
+        Self::Interrupted,
+    ];
 
     /// The number that the shell sees.
     pub fn code(self) -> u8 {
@@ -34,6 +49,9 @@ impl Exit {
             Self::Failed => 1,
             Self::Usage => 2,
             Self::Unfinished => 3,
+            Self::Worse => 4,
+            Self::NotComparable => 5,
+            Self::Untold => 6,
             // 128 + SIGINT, as a shell reports a program that the signal ended.
             Self::Interrupted => 130,
         }
@@ -48,6 +66,9 @@ impl Exit {
             Self::Unfinished => {
                 "a report was written, of a study that is not finished or in which cells failed"
             }
+            Self::Worse => "gate: an error is worse, or a cell does not run any more",
+            Self::NotComparable => "gate: the two results are not of the same inputs",
+            Self::Untold => "gate --strict: of something it cannot be told whether it changed",
             Self::Interrupted => "stopped by Ctrl-C",
         }
     }
@@ -97,6 +118,11 @@ impl std::error::Error for Ended {}
 /// The command line asks for what cannot be: ends with [`Exit::Usage`].
 pub fn usage(text: impl Into<String>) -> anyhow::Error {
     Ended { exit: Exit::Usage, text: text.into() }.into()
+}
+
+/// Two results of other inputs: ends with [`Exit::NotComparable`].
+pub fn not_comparable(text: impl Into<String>) -> anyhow::Error {
+    Ended { exit: Exit::NotComparable, text: text.into() }.into()
 }
 
 /// Stopped by Ctrl-C: ends with [`Exit::Interrupted`].

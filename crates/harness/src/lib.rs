@@ -3,6 +3,9 @@
 mod cache;
 mod error;
 mod fingerprint;
+mod forecast;
+mod gate;
+mod looks;
 mod machine;
 mod memory;
 mod observer;
@@ -16,6 +19,8 @@ mod store;
 mod study_of_folder;
 
 pub use error::HarnessError;
+pub use forecast::{Forecast, forecast, spreads_of};
+pub use gate::{GateFailure, gate};
 pub use memory::{MemoryEstimate, memory_estimate};
 pub use observer::{Observer, Silent, Stage, Workload};
 pub use reanalyse::{reanalyse, reanalyse_into};

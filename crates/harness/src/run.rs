@@ -20,6 +20,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cache::Cache;
 use crate::error::HarnessError;
+use crate::looks;
 use crate::machine;
 use crate::memory::check_memory;
 use crate::observer::{Stage, Workload};
@@ -73,6 +74,7 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     order(&mut records, &plan)?;
 
     request.observer.stage(&Stage::Analysis);
+    context.looks = looks::noted(&layout, &context, records.all())?;
     let images = FolderImages(layout.root());
     let summary = summarise(study, &context, records.all(), &Kept::Images(&images), machine::now());
     write_json(&layout.summary(), &summary)?;
@@ -101,6 +103,7 @@ fn begin(
         plan: plan.scenes.iter().map(planned).collect(),
         scenes: Vec::new(),
         flicker: Vec::new(),
+        looks: Vec::new(),
     };
     write_json(&layout.context(), &context)?;
     Ok(context)

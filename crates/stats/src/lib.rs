@@ -40,7 +40,7 @@ pub use observed::{Groups, Observed, SampleCounts, ShapeError, Truth};
 pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};
 pub use pareto::pareto_front;
 pub use plateau::{Plateau, plateau};
-pub use power::Design;
+pub use power::{Design, log_ratio_spread};
 pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_error};
 pub use share::ReferenceShare;
 pub use slope::{Slope, slope};

@@ -2,6 +2,7 @@
 
 use statrs::distribution::{ChiSquared, Continuous, ContinuousCDF, Normal};
 
+use crate::interval::mean_and_variance;
 use crate::{Level, t_quantile};
 
 /// Most replicates that are looked for.
@@ -89,6 +90,17 @@ impl Design {
     }
 }
 
+/// Standard deviation over replicates of the logarithm of the ratio of two errors; `None` with fewer than two replicates that
+/// have both. Values that are not positive and finite are missing.
+#[must_use]
+pub fn log_ratio_spread(a: &[Option<f64>], b: &[Option<f64>]) -> Option<f64> {
+    let positive = |v: &Option<f64>| v.filter(|v| v.is_finite() && *v > 0.0);
+    let logs: Vec<f64> =
+        a.iter().zip(b).filter_map(|(a, b)| Some(positive(a)?.ln() - positive(b)?.ln())).collect();
+    let (_, variance) = mean_and_variance(&logs)?;
+    (logs.len() >= 2).then(|| variance.sqrt())
+}
+
 /// Smallest number from 2 of which `enough` is true, which stays true for all above it.
 fn fewest(enough: impl Fn(u32) -> bool) -> Option<u32> {
     let mut high = 2;
@@ -167,6 +179,15 @@ mod tests {
     }
 
     #[test]
+    fn the_spread_of_a_log_ratio_is_over_replicates_that_have_both() {
+        let (a, b) = ([Some(1.0), Some(4.0), None, Some(-1.0)], [Some(1.0), Some(1.0), Some(9.0), Some(1.0)]);
+        // Logarithms 0 and ln 4.
+        let spread = log_ratio_spread(&a, &b).unwrap();
+        assert!((spread - 4f64.ln() / 2f64.sqrt()).abs() < 1e-15);
+        assert_eq!(log_ratio_spread(&a[1..], &b[1..]), None);
+    }
+
+    #[test]
     fn a_central_distribution_is_students_t() {
         for (degrees, t) in [(1u32, 12.706), (3, 3.182), (15, 2.131), (1, 300.0)] {
             let exact = 0.5 * crate::t_two_sided_p(t, degrees.into());
@@ -187,7 +208,7 @@ mod tests {
                 let told = (0..STUDIES).filter(|_| {
                     let values: Vec<f64> =
                         (0..replicates).map(|_| difference + 0.3 * normals.next()).collect();
-                    let (mean, variance) = crate::interval::mean_and_variance(&values).unwrap();
+                    let (mean, variance) = mean_and_variance(&values).unwrap();
                     mean / (variance / f64::from(replicates)).sqrt() > critical
                 });
                 let share = told.count() as f64 / f64::from(STUDIES);

@@ -77,6 +77,7 @@ fn context(study: &Study, summary: &Summary, records: &[Record]) -> Context {
         plan: plan.collect(),
         scenes: scenes.collect(),
         flicker: Vec::new(),
+        looks: Vec::new(),
     }
 }
 
