@@ -1,5 +1,6 @@
 //! Arguments of every verb, with examples in each help text.
 
+mod planning;
 mod shot;
 mod values;
 
@@ -11,6 +12,7 @@ use noisefloor_kernels::InstructionSet;
 use noisefloor_metrics::Metric;
 
 use crate::exit;
+pub use planning::{Gate, Plan};
 pub use shot::Shot;
 pub use values::{Pixel, Size};
 use values::{positive, stops};
@@ -44,6 +46,10 @@ pub struct Args {
 pub enum Verb {
     /// Run a study and write its report; continues where an earlier run stopped
     Run(Run),
+    /// Tell what a study will cost and which ratios of errors its replicates can tell, running nothing
+    Plan(Plan),
+    /// Compare two results of the same inputs, of an old and a new version: did any error change?
+    Gate(Gate),
     /// Render one noisy frame with its statistics
     Render(Render),
     /// Denoise one frame

@@ -19,13 +19,31 @@ pub enum Exit {
     Usage,
     /// A report was written, but of a study that is not finished, or of which cells ended in an error.
     Unfinished,
+    /// A gate found something that is worse.
+    Worse,
+    /// The two results of a gate are not of the same inputs.
+    NotComparable,
+    /// A strict gate could not tell whether something changed.
+    Untold,
+    /// A check of the instrument found a fault.
+    Fault,
     /// Stopped by Ctrl-C.
     Interrupted,
 }
 
 impl Exit {
     /// All, by their number.
-    pub const ALL: [Self; 5] = [Self::Done, Self::Failed, Self::Usage, Self::Unfinished, Self::Interrupted];
+    pub const ALL: [Self; 9] = [
+        Self::Done,
+        Self::Failed,
+        Self::Usage,
+        Self::Unfinished,
+        Self::Worse,
+        Self::NotComparable,
+        Self::Untold,
+        Self::Fault,
+        Self::Interrupted,
+    ];
 
     /// The number that the shell sees.
     pub fn code(self) -> u8 {
@@ -34,6 +52,10 @@ impl Exit {
             Self::Failed => 1,
             Self::Usage => 2,
             Self::Unfinished => 3,
+            Self::Worse => 4,
+            Self::NotComparable => 5,
+            Self::Untold => 6,
+            Self::Fault => 7,
             // 128 + SIGINT, as a shell reports a program that the signal ended.
             Self::Interrupted => 130,
         }
@@ -47,6 +69,12 @@ impl Exit {
             Self::Usage => "wrong usage, nothing was done",
             Self::Unfinished => {
                 "a report was written, of a study that is not finished or in which cells failed"
+            }
+            Self::Worse => "gate: an error is worse, or a cell does not run any more",
+            Self::NotComparable => "gate: the two results are not of the same inputs",
+            Self::Untold => "gate --strict: of something it cannot be told whether it changed",
+            Self::Fault => {
+                "a report was written; a check of the instrument found a fault, told on standard error"
             }
             Self::Interrupted => "stopped by Ctrl-C",
         }
@@ -99,6 +127,16 @@ pub fn usage(text: impl Into<String>) -> anyhow::Error {
     Ended { exit: Exit::Usage, text: text.into() }.into()
 }
 
+/// Checks of the instrument found faults: ends with [`Exit::Fault`].
+pub fn fault(text: impl Into<String>) -> anyhow::Error {
+    Ended { exit: Exit::Fault, text: text.into() }.into()
+}
+
+/// Two results of other inputs: ends with [`Exit::NotComparable`].
+pub fn not_comparable(text: impl Into<String>) -> anyhow::Error {
+    Ended { exit: Exit::NotComparable, text: text.into() }.into()
+}
+
 /// Stopped by Ctrl-C: ends with [`Exit::Interrupted`].
 pub fn interrupted(text: impl Into<String>) -> anyhow::Error {
     Ended { exit: Exit::Interrupted, text: text.into() }.into()
@@ -130,7 +168,7 @@ mod tests {
         for exit in Exit::ALL {
             assert!(help.contains(&format!("{:>3}  {}", exit.code(), exit.meaning())), "{help}");
         }
-        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 130]);
+        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 4, 5, 6, 7, 130]);
     }
 
     #[test]

@@ -11,12 +11,14 @@ mod convert;
 mod denoise;
 mod exit;
 mod export;
+mod gate;
 mod input;
 mod interrupt;
 mod memory;
 mod methods;
 mod out;
 mod output;
+mod plan;
 mod progress;
 mod record;
 mod render;
@@ -38,8 +40,8 @@ use crate::out::note;
 
 /// Runs the command with the built-in methods and `extra` ones, on the arguments of the process.
 ///
-/// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage; 3: a report of an unfinished study; 130:
-/// stopped by Ctrl-C.
+/// Exit code 0: done; 1: an error, told on standard error; 2: wrong usage; 3: a report of an unfinished study; of a
+/// gate 4: something is worse, 5: not comparable, 6: cannot be told; 130: stopped by Ctrl-C.
 #[must_use]
 pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode {
     let args = match args::Args::try_parse() {
@@ -53,6 +55,8 @@ pub fn main_with(extra: impl IntoIterator<Item = Arc<dyn Factory>>) -> ExitCode 
     let context = context::Context::new(extra);
     let done = match args.verb.unwrap_or_default() {
         args::Verb::Run(verb) => run::run(&context, &verb),
+        args::Verb::Plan(verb) => plan::run(&context, &verb),
+        args::Verb::Gate(verb) => gate::run(&verb),
         args::Verb::Render(verb) => render::run(&context, &verb),
         args::Verb::Denoise(verb) => denoise::run(&context, &verb),
         args::Verb::Compare(verb) => compare::run(&verb),

@@ -28,7 +28,17 @@ pub fn run(args: &Report) -> anyhow::Result<Exit> {
         say!(Out::Stdout, "images are not kept in a recorded study; `{}` makes them", summary.study.command)?;
     }
     say!(Out::Stdout, "report: {}", files.index.display())?;
+    fail_on_faults(&summary)?;
     Ok(unfinished_or_done(&summary))
+}
+
+/// What a study shows rests on its frames, reference and intervals: if a check of these found a fault, nothing is shown.
+pub fn fail_on_faults(summary: &Summary) -> anyhow::Result<()> {
+    let faults = noisefloor_questions::failed_checks(summary);
+    if faults.is_empty() {
+        return Ok(());
+    }
+    Err(crate::exit::fault(format!("the instrument found a fault:\n  {}", faults.join("\n  "))))
 }
 
 /// What a script must know of a report: whether its study is finished and no cell failed. Tells what is missing on

@@ -3,7 +3,7 @@
 mod fit;
 mod watch;
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use noisefloor_harness::{StudyRun, memory_estimate, study_of_folder};
@@ -12,12 +12,12 @@ use noisefloor_report::ReportFiles;
 use noisefloor_study::summary::Summary;
 use noisefloor_study::{Maps, MethodRow, Study};
 
-use crate::args::Run;
+use crate::args::{Run, Size};
 use crate::context::{Context, default_cache, use_threads};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::out::{Out, note, say};
-use crate::report::unfinished_or_done;
+use crate::report::{fail_on_faults, unfinished_or_done};
 use crate::run::fit::{Kind, check_options, check_study};
 use crate::run::watch::Watcher;
 use crate::shot::{is_gltf, shot, shot_command};
@@ -26,10 +26,7 @@ use crate::table::{paper_table, summary_table};
 pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     use_threads(args.threads)?;
     let (study, kind) = find_study(context, args)?;
-    let out = args.out.clone().unwrap_or_else(|| {
-        let size = args.size.map_or(String::new(), |s| format!("-{}x{}", s.width, s.height));
-        Path::new("noisefloor-results").join(format!("{}{size}", study.name))
-    });
+    let out = args.out.clone().unwrap_or_else(|| default_out(&study, args.size));
     check_study(args, kind, &study, &out)?;
     let cache = args.cache.clone().unwrap_or_else(default_cache);
     let size = args.size.map(|s| (s.width, s.height));
@@ -56,8 +53,15 @@ pub fn run(context: &Context, args: &Run) -> anyhow::Result<Exit> {
     let files = noisefloor_report::write_report(&out, &noisefloor_questions::document(&summary))?;
     let shown = show(args, &summary, &files);
     fail_on_violations(&summary)?;
+    fail_on_faults(&summary)?;
     shown?;
     Ok(unfinished_or_done(&summary))
+}
+
+/// Where results go unless somebody says otherwise.
+pub(crate) fn default_out(study: &Study, size: Option<Size>) -> PathBuf {
+    let size = size.map_or(String::new(), |s| format!("-{}x{}", s.width, s.height));
+    Path::new("noisefloor-results").join(format!("{}{size}", study.name))
 }
 
 /// The tables, or with `--quiet` what must not be missed.
@@ -91,7 +95,7 @@ fn fail_on_violations(summary: &Summary) -> anyhow::Result<()> {
     bail!("an enclosure that must always hold was violated:\n  {}", violations.join("\n  "))
 }
 
-fn find_study(context: &Context, args: &Run) -> anyhow::Result<(Study, Kind)> {
+pub(crate) fn find_study(context: &Context, args: &Run) -> anyhow::Result<(Study, Kind)> {
     let name = args.study.as_deref().unwrap_or("quick");
     let path = Path::new(name);
     let of_scene = is_gltf(path) && path.is_file()

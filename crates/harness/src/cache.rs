@@ -59,6 +59,11 @@ impl Cache {
         Ok(cache)
     }
 
+    /// A cache to be asked what it has, and nothing more: it need not be there.
+    pub(crate) fn unopened(root: &Path) -> Self {
+        Self { root: root.to_owned() }
+    }
+
     fn sweep(&self) {
         let Ok(entries) = std::fs::read_dir(&self.root) else { return };
         for entry in entries.filter_map(Result::ok) {

@@ -37,6 +37,13 @@ pub(crate) struct CellPlan {
     pub(crate) key: Key,
 }
 
+impl CellPlan {
+    /// Keys of its frame and of the neighbouring ones.
+    pub(crate) fn frames(&self) -> impl Iterator<Item = &Key> {
+        std::iter::once(&self.frame.key).chain(self.beside.iter().map(|(_, frame)| &frame.key))
+    }
+}
+
 /// A frame with the cells that are to run on it.
 pub(crate) type FrameWork<'a> = (&'a FrameSpec, Vec<&'a CellPlan>);
 

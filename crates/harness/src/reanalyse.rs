@@ -8,6 +8,7 @@ use noisefloor_io::{ReadOptions, read_color, read_image, read_reference};
 use noisefloor_metrics::{Classes, Measurer};
 
 use crate::error::HarnessError;
+use crate::looks;
 use crate::machine;
 use crate::recorded::KeptStudy;
 use crate::store::{FolderImages, Layout, Lock, Records, Superseded, damaged, read_json, whole, write_json};
@@ -89,6 +90,7 @@ pub fn reanalyse_into(dir: &Path, out: &Path, recompute: bool) -> Result<Summary
         record.diagnostics.retain(|_, path| !damaged.contains(path));
         record.log.take_if(|path| damaged.contains(path));
     }
+    context.looks = if here { looks::noted(&layout, &context, &all)? } else { looks::read(&layout) };
     let images = Where::Images(&FolderImages(dir));
     let mut summary = summarise(&study, &context, &all, &images, machine::now());
     summary.findings = sorted_findings(kept.findings.into_iter().chain(summary.findings));

@@ -15,6 +15,7 @@ use noisefloor_study::files;
 use serde::Serialize;
 
 use crate::error::HarnessError;
+use crate::looks;
 use crate::machine;
 use crate::store::{FolderImages, Layout, Records, read_json, write_whole};
 use noisefloor_study::Study;
@@ -63,6 +64,7 @@ impl KeptStudy {
         let layout = Layout::new(dir);
         let study: Study = read_json(&layout.study())?;
         let mut context: Context = read_json(&layout.context())?;
+        context.looks = looks::read(&layout);
         for scene in &study.scenes {
             let path = dir.join(files::scene(&scene.id));
             if path.exists() {

@@ -22,6 +22,7 @@ use noisefloor_study::summary::Summary;
 
 use crate::cache::Cache;
 use crate::error::HarnessError;
+use crate::looks;
 use crate::machine;
 use crate::memory::check_memory;
 use crate::observer::{Stage, Workload};
@@ -77,6 +78,7 @@ pub fn run(request: &StudyRun<'_>) -> Result<Summary, HarnessError> {
     order(&mut records, &plan)?;
 
     request.observer.stage(&Stage::Analysis);
+    context.looks = looks::noted(&layout, &context, records.all())?;
     let images = FolderImages(layout.root());
     let summary = summarise(study, &context, records.all(), &Kept::Images(&images), machine::now());
     write_json(&layout.summary(), &summary)?;
@@ -106,6 +108,7 @@ fn begin(
         scenes: Vec::new(),
         self_check: Vec::new(),
         flicker: Vec::new(),
+        looks: Vec::new(),
     };
     write_json(&layout.context(), &context)?;
     Ok(context)

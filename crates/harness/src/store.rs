@@ -14,4 +14,4 @@ pub(crate) use lock::Lock;
 pub(crate) use records::Records;
 pub(crate) use superseded::Superseded;
 pub(crate) use sweep::sweep;
-pub(crate) use write::{read_json, write_json, write_json_lines, write_whole};
+pub(crate) use write::{append_lines, read_json, write_json, write_json_lines, write_whole};

@@ -3,6 +3,7 @@
 mod analyse;
 mod builds;
 mod exhibit;
+mod looked;
 mod progress;
 mod readme;
 mod warnings;

@@ -85,7 +85,7 @@ fn not_finite(a: &[Option<f64>], b: &[Option<f64>]) -> u32 {
     a.iter().zip(b).filter(|(a, b)| bad(a) || bad(b)).count() as u32
 }
 
-fn effect(values: &[f64], common: f64, level: Level) -> Option<Effect> {
+pub(crate) fn effect(values: &[f64], common: f64, level: Level) -> Option<Effect> {
     let (mean, variance) = mean_and_variance(values)?;
     let n = values.len();
     if n < 2 {

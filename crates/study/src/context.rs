@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::check::CheckRecord;
+use crate::look::Look;
 use crate::summary::{Environment, MethodSummary};
 use crate::{Flicker, Key, Maps};
 
@@ -35,6 +36,10 @@ pub struct Context {
     /// What was measured over the frames of sequences, in a recorded study: it takes images.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub flicker: Vec<Flicker>,
+    /// When the study was analysed with how many replicates, the first time first. Kept in a file of its own beside a run;
+    /// here in a recorded study.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub looks: Vec<Look>,
 }
 
 /// Frames that a run means to denoise on a scene.

@@ -8,6 +8,7 @@ pub mod exhibit;
 pub mod files;
 pub mod format;
 mod key;
+pub mod look;
 pub mod metric;
 mod names;
 mod over_time;

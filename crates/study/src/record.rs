@@ -8,6 +8,8 @@ use noisefloor_metrics::{Contribution, Measured};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::Key;
+
 /// Version of the record format; a reader refuses newer ones.
 pub const RECORD_SCHEMA: u32 = 1;
 
@@ -43,6 +45,10 @@ pub struct Record {
     /// Hash of what the measuring that made the numbers gives on fixed inputs; empty if unknown.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub measuring: String,
+    /// Keys of the frame that it is of and of the neighbouring frames that its method looked at; empty in records of earlier
+    /// programs.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<Key>,
     /// Study name.
     pub study: String,
     /// Scene id within the study.

@@ -14,6 +14,34 @@ pub(super) fn positive(text: &str) -> Result<f32, String> {
     value.ok_or_else(|| format!("`{text}` is not a finite number above 0"))
 }
 
+/// A number strictly between two others, by name.
+fn between(text: &str, what: &str, low: f64, high: f64) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|v: &f64| *v > low && *v < high);
+    value.ok_or_else(|| format!("`{text}` is not {what}, above {low} and below {high}"))
+}
+
+/// A ratio of errors to be told from 1.
+pub(super) fn ratio(text: &str) -> Result<f64, String> {
+    let value = between(text, "a ratio of two errors", 0.0, 1e6)?;
+    if value == 1.0 { Err("a ratio of 1 cannot be told from 1".into()) } else { Ok(value) }
+}
+
+/// A share of studies.
+pub(super) fn power(text: &str) -> Result<f64, String> {
+    between(text, "a share of studies", 0.0, 1.0)
+}
+
+/// A chance of a false answer.
+pub(super) fn probability(text: &str) -> Result<f64, String> {
+    between(text, "a probability", 0.0, 1.0)
+}
+
+/// A relative change, 0 included.
+pub(super) fn margin(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|v: &f64| (0.0..1.0).contains(v));
+    value.ok_or_else(|| format!("`{text}` is not a relative change from 0 and below 1"))
+}
+
 /// `WxH` in pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Size {
@@ -74,6 +102,12 @@ mod tests {
         for bad in ["nan", "65", "inf", "a"] {
             assert!(stops(bad).unwrap_err().contains(bad));
         }
+        assert_eq!(
+            (ratio("0.95"), margin("0"), probability("0.05"), power("0.8")),
+            (Ok(0.95), Ok(0.0), Ok(0.05), Ok(0.8))
+        );
+        assert!(ratio("1").is_err() && ratio("-2").is_err() && margin("1").unwrap_err().contains('1'));
+        assert!(["0", "1", "nan"].iter().all(|bad| probability(bad).is_err() && power(bad).is_err()));
         assert!(["0", "-1", "nan", "inf"].iter().all(|bad| positive(bad).is_err()));
     }
 }

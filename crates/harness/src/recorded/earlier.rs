@@ -78,6 +78,7 @@ fn context(study: &Study, summary: &Summary, records: &[Record]) -> Context {
         scenes: scenes.collect(),
         self_check: Vec::new(),
         flicker: Vec::new(),
+        looks: Vec::new(),
     }
 }
 

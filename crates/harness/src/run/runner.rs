@@ -44,6 +44,7 @@ impl Runner<'_> {
             cell: cell.key.clone(),
             build: machine::build_id(),
             measuring: measuring().to_owned(),
+            frames: cell.frames().cloned().collect(),
             study: self.request.study.name.clone(),
             scene: self.scene().id.clone(),
             sampling,

@@ -56,6 +56,11 @@ impl Layout {
         self.root.join("plan.jsonl")
     }
 
+    /// When the study was analysed with how many replicates, one JSON object per line.
+    pub(crate) fn looks(&self) -> PathBuf {
+        self.root.join("looks.jsonl")
+    }
+
     /// The analysis.
     pub(crate) fn summary(&self) -> PathBuf {
         self.root.join("summary.json")

@@ -9,7 +9,7 @@ use serde::{Serialize, de::DeserializeOwned};
 use crate::error::HarnessError;
 
 /// Appends whole lines; they are on disk when this returns. A torn line at the end of the file stays a line of its own.
-pub(super) fn append_lines(
+pub(crate) fn append_lines(
     path: &Path,
     lines: impl IntoIterator<Item = Vec<u8>>,
 ) -> Result<(), HarnessError> {

@@ -1,7 +1,7 @@
 use noisefloor_frame::{Finding, FindingKind, sorted_findings};
 use noisefloor_study::summary::Summary;
 
-use super::{builds, progress, warnings};
+use super::{builds, looked, progress, warnings};
 use crate::records::Index;
 
 /// How far the study got, what was found about its inputs, and what a reader must see first.
@@ -11,6 +11,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     // What questions before this one had to tell comes after what is more serious.
     let told = std::mem::take(&mut summary.warnings);
     summary.warnings = warnings::warnings(index, summary);
+    summary.warnings.extend(looked::warning(index.context, index.all));
     summary.warnings.extend(told);
     summary.warnings.extend(builds::warning(index.all));
 }

@@ -15,6 +15,8 @@ pub enum WarningKind {
     Failed,
     /// Nobody knows how many cells the study asks for.
     UnknownPlan,
+    /// There are more replicates than when the study was looked at before.
+    Looked,
     /// Rows that take no part in the ranking.
     NotRanked,
     /// No row is plain Monte Carlo.
