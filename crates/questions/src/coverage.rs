@@ -7,7 +7,7 @@ mod measure;
 mod readme;
 
 pub(crate) use analyse::mark;
-pub(crate) use claims::bracketed;
+pub(crate) use claims::{Part, bracketed};
 
 use crate::question::Question;
 

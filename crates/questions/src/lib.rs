@@ -16,6 +16,7 @@ mod flicker;
 mod gate;
 mod growth;
 mod instrument;
+mod intervals;
 mod level;
 mod list;
 mod measuring;

@@ -7,7 +7,7 @@ use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
     bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth,
-    instrument, own_error, paper, statistics,
+    instrument, intervals, own_error, paper, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -19,6 +19,7 @@ pub const QUESTIONS: &[Question] = &[
     cost::QUESTION,
     statistics::QUESTION,
     coverage::QUESTION,
+    intervals::QUESTION,
     bounds::QUESTION,
     own_error::QUESTION,
     growth::QUESTION,

@@ -37,7 +37,7 @@ fn id(row: &CoverageSummary, part: Part, label: &str) -> ClaimId {
 
 /// Pixel-channels that a claim is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Part {
+pub(crate) enum Part {
     /// Those with s > 0.
     Varying,
     /// Those and the ones whose samples all missed the light.
@@ -59,7 +59,7 @@ impl Part {
     }
 
     /// The share covered over replicates, with and without the allowance, and the trials behind it.
-    pub(super) fn share(self, counts: &[&CoverageCount]) -> Option<([Interval; 2], u64)> {
+    pub(crate) fn share(self, counts: &[&CoverageCount]) -> Option<([Interval; 2], u64)> {
         let of = |k: usize| -> Vec<(u64, u64)> {
             counts.iter().map(|c| self.counts(c)).map(|counts| (counts[k], counts[2])).collect()
         };

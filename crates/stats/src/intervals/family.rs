@@ -34,6 +34,11 @@ pub trait IntervalFamily: std::fmt::Debug + Send + Sync {
         true
     }
 
+    /// Whether it promises to cover at least as often as its level says, instead of as often.
+    fn at_least(&self) -> bool {
+        false
+    }
+
     /// What it needs beside means, variances and counts.
     fn needs(&self) -> &'static [IntervalNeed];
 

@@ -44,6 +44,10 @@ impl IntervalFamily for LowerT {
         false
     }
 
+    fn at_least(&self) -> bool {
+        true
+    }
+
     fn needs(&self) -> &'static [IntervalNeed] {
         &[]
     }
@@ -72,6 +76,10 @@ impl IntervalFamily for UpperT {
 
     fn has_both_ends(&self) -> bool {
         false
+    }
+
+    fn at_least(&self) -> bool {
+        true
     }
 
     fn needs(&self) -> &'static [IntervalNeed] {

@@ -2,6 +2,7 @@
 
 mod compare;
 mod frames;
+mod intervals;
 mod limits;
 mod sequence;
 mod statistics;
@@ -19,6 +20,7 @@ use compare::check_comparisons;
 use frames::check_frames;
 use limits::{bad_replicates, check_limits};
 use sequence::check_sequences;
+use intervals::check_intervals;
 use statistics::check_statistics;
 
 impl Study {
@@ -66,6 +68,7 @@ pub(super) fn check(study: &Study, lines: &Lines<'_>) -> Result<(), StudyError> 
     }
     check_limits(study, lines)?;
     check_statistics(study, lines)?;
+    check_intervals(study, lines)?;
     // Truth that is exact or comes with its frames is not rendered: nobody is asked how, and the default may be anything.
     let rendered = |s: &SceneSpec| matches!(s.source, SceneSource::Builtin(_) | SceneSource::Gltf(_));
     if study.scenes.iter().any(rendered) || lines.of_table("reference").is_some() {

@@ -42,6 +42,9 @@ pub struct Study {
     /// Where along a path features are taken.
     #[serde(default)]
     pub feature_hit: FeatureHit,
+    /// Families of intervals that are measured and judged beside Student's t, by their ids.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub intervals: Vec<String>,
     /// Optional statistics of the colour that rendered and drawn frames get, by their names, each once: see
     /// [`noisefloor_frame::Statistic`]. Frames of folders have their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -39,6 +39,8 @@ struct Raw {
     #[serde(default)]
     feature_hit: FeatureHit,
     #[serde(default)]
+    intervals: Vec<String>,
+    #[serde(default)]
     statistics: Vec<String>,
     #[serde(default)]
     seed: u64,
@@ -201,6 +203,7 @@ impl Study {
             depth: raw.depth,
             filter: raw.filter,
             feature_hit: raw.feature_hit,
+            intervals: raw.intervals,
             statistics: raw.statistics,
             seed: raw.seed,
             sampling: raw.sampling,

@@ -21,6 +21,7 @@ impl Study {
             depth: 8,
             filter: PixelFilter::Box,
             feature_hit: FeatureHit::First,
+            intervals: Vec::new(),
             statistics: Vec::new(),
             seed: 0,
             sampling: Sampling::Independent,
