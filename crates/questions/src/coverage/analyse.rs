@@ -76,8 +76,17 @@ fn one(
         covered_uncorrected: rate(&uncorrected, within)?,
         varying: Part::Varying.share(counts).map(|([share, _], _)| share),
         lit: Part::Lit.share(counts).map(|([share, _], _)| share),
+        sides: sides(counts),
         constant: share(|c| c.constant),
         missed: share(|c| c.missed),
         mark: mark(scene, spp),
     })
+}
+
+/// On which side the truth lies where it is missed; nothing where misses were counted without.
+fn sides(counts: &[&CoverageCount]) -> Option<[f64; 2]> {
+    let sum = |part: fn(&CoverageCount) -> u64| counts.iter().map(|c| part(c)).sum::<u64>();
+    let (total, missed) = (sum(|c| c.total), sum(|c| c.total - c.covered));
+    let (above, below) = (sum(|c| c.truth_above), sum(|c| c.truth_below));
+    (above + below == missed && total > 0).then(|| [above, below].map(|n| n as f64 / total as f64))
 }

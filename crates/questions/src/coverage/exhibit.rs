@@ -10,7 +10,8 @@ pub(super) use table::{Covered, covered};
 use crate::view::View;
 
 const NOTE: &str = "How often Student's interval around the noisy mean contains the truth, allowing for the noise of the reference. \
-    Pixels whose samples are all equal have no interval: they count as covered if their value is right (“constant”), else as “missed \
+    The verdict is about pixel-channels with s > 0, and so are the sides on which the truth lies where \
+    it is missed. Pixels whose samples are all equal have no interval: they count as covered if their value is right (“constant”), else as “missed \
     events”.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {

@@ -13,8 +13,10 @@ fn coverage(chosen: &Chosen<'_>) -> Vec<Block> {
 
 fn table(chosen: &Chosen<'_>, scene: &SceneSummary, covered: &Covered<'_>) -> Table {
     let nominal = covered.nominal.iter().map(|n| format!("nominal {}", format::percent_short(*n)));
+    let lowest = covered.nominal.first().map_or_else(String::new, |n| format::percent_short(*n));
+    let sides = ["above", "below"].map(|side| format!("truth {side} {lowest}"));
     let first = std::iter::once("samples per pixel".to_owned());
-    let heads = first.chain(nominal).chain(["constant".into(), "missed events".into()]);
+    let heads = first.chain(nominal).chain(["constant".into(), "missed events".into()]).chain(sides);
     let mut out = headed(format!("coverage-{}", scene.id), heads);
     for (_, spp, cells) in
         covered.rows.iter().filter(|(class, spp, _)| *class == "all" && chosen.spp.contains(spp))

@@ -18,9 +18,9 @@ use crate::study::lines::{Lines, quoted};
 use crate::study::model::{FIGURES, SceneSource, SceneSpec, Study};
 use compare::check_comparisons;
 use frames::check_frames;
+use intervals::check_intervals;
 use limits::{bad_replicates, check_limits};
 use sequence::check_sequences;
-use intervals::check_intervals;
 use statistics::check_statistics;
 
 impl Study {

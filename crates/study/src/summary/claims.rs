@@ -26,6 +26,10 @@ pub struct CoverageSummary {
     /// Fraction covered of those that are not constant: missed events count as misses.
     #[serde(default)]
     pub lit: Option<Interval>,
+    /// Of those with s > 0: fraction with the truth above the interval, and below it; absent in records that do not tell
+    /// the sides apart.
+    #[serde(default)]
+    pub sides: Option<[f64; 2]>,
     /// Fraction without variance whose value is right.
     pub constant: f64,
     /// Fraction without variance whose value is wrong: missed events.

@@ -37,6 +37,11 @@ pub(in crate::coverage) fn covered<'a>(view: &View<'a>, scene: &str) -> Option<C
         let first = here.first();
         cells.push(first.map(|c| shown::share(c.constant)).unwrap_or_default());
         cells.push(first.map(|c| shown::share(c.missed)).unwrap_or_default());
+        let side = |k: usize| {
+            let sides = here.iter().find(|c| c.confidence == nominal[0]).and_then(|c| c.sides);
+            sides.map_or_else(TableCell::none, |sides| shown::share(sides[k]))
+        };
+        cells.extend([side(0), side(1)]);
         (class, spp, cells)
     };
     let rows = keys.into_iter().map(row).collect();
@@ -65,7 +70,9 @@ pub(super) fn parts(covered: &Covered<'_>, name: &str) -> Vec<Part> {
     let spp = || Column::number("spp").unit("spp");
     let numbers = || {
         let nominal = covered.nominal.iter().map(|n| format!("nominal {}", format::percent_short(*n)));
-        nominal.chain(["constant".into(), "missed".into()]).map(Column::number)
+        let lowest = covered.nominal.first().map_or_else(String::new, |n| format::percent_short(*n));
+        let sides = ["above", "below"].map(|side| format!("truth {side} {lowest}"));
+        nominal.chain(["constant".into(), "missed".into()]).chain(sides).map(Column::number)
     };
     let rows = all.into_iter().map(|(_, spp, cells)| {
         TableRow::new(std::iter::once(TableCell::count((*spp).into())).chain(cells.clone()).collect())
