@@ -3,7 +3,7 @@
 //! Throughout, `shift` is the difference of the true means in units of the centre's standard error, and `ratio` the standard
 //! error of the other mean over the centre's: the difference of the means has √(1 + ratio²) times the centre's standard error.
 
-use super::MembershipTest;
+use super::test::MembershipTest;
 use crate::student::{normal_tail, t_tail};
 use crate::{Level, normal_quantile, t_quantile};
 

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MembershipTest, SampleMean};
+use super::mean::SampleMean;
+use super::test::MembershipTest;
 use crate::observed::{Tally, expect, tally};
 use crate::{Groups, Level, Observed, ShapeError};
 

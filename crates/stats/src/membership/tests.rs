@@ -1,6 +1,6 @@
 use super::*;
 use crate::random::Normals;
-use crate::{Groups, Observed, SampleCounts};
+use crate::{Groups, Level, Observed, SampleCounts};
 
 const LEVELS: [Level; 3] = [Level::TWO_SIDED_95, Level::TWO_SIDED_99, Level::TWO_SIDED_998];
 

@@ -1,7 +1,7 @@
 //! Welch, The generalization of "Student's" problem when several different population variances are involved, Biometrika
 //! 34(1/2), 1947; degrees of freedom by Satterthwaite, Biometrics Bulletin 2(6), 1946.
 
-use super::SampleMean;
+use super::mean::SampleMean;
 use crate::Level;
 use crate::student::t_tail;
 
