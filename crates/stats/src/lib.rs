@@ -16,6 +16,7 @@ mod intervals;
 mod leave_one_out;
 mod level;
 mod levels;
+mod membership;
 mod monte_carlo;
 mod observed;
 mod paired;
@@ -54,6 +55,7 @@ pub use intervals::{
 pub use leave_one_out::{LeaveOneOutError, LeaveOneOutTally, leave_one_out};
 pub use level::{Level, LevelError, Sides};
 pub use levels::Levels;
+pub use membership::{MembershipTest, RejectionTally, SampleMean, interval_rejection, rejections};
 pub use monte_carlo::{MonteCarloFit, monte_carlo_constant};
 pub use observed::{Groups, Observed, SampleCounts, ShapeError, Truth};
 pub use paired::{Effect, paired_difference, paired_effect, paired_ratio};

@@ -47,21 +47,32 @@ pub fn t_two_sided_p(statistic: f64, degrees: u64) -> f64 {
     if statistic.is_nan() {
         return 1.0;
     }
+    (2.0 * t_tail(statistic.abs(), degrees as f64)).min(1.0)
+}
+
+/// Probability that Student's t with `degrees` ≥ 1 degrees of freedom, which need not be whole, exceeds a statistic that is a
+/// number. Above a million as the normal distribution.
+pub(crate) fn t_tail(statistic: f64, degrees: f64) -> f64 {
     if statistic.is_infinite() {
-        return 0.0;
+        return if statistic > 0.0 { 0.0 } else { 1.0 };
     }
-    if degrees > 1_000_000 {
-        return normal_two_sided_p(statistic);
+    if degrees > 1e6 {
+        return normal_tail(statistic);
     }
-    let t = StudentsT::new(0.0, 1.0, degrees.max(1) as f64)
+    let t = StudentsT::new(0.0, 1.0, degrees.max(1.0))
         .expect("location 0, scale 1, at least one degree of freedom");
-    (2.0 * t.sf(statistic.abs())).min(1.0)
+    t.sf(statistic)
+}
+
+/// Probability that a standard normal variable exceeds a statistic that is a number.
+pub(crate) fn normal_tail(statistic: f64) -> f64 {
+    Normal::standard().sf(statistic)
 }
 
 /// Probability that a standard normal number exceeds `statistic` in absolute value; 1 for one that is not a number.
 #[must_use]
 pub fn normal_two_sided_p(statistic: f64) -> f64 {
-    if statistic.is_nan() { 1.0 } else { (2.0 * Normal::standard().sf(statistic.abs())).min(1.0) }
+    if statistic.is_nan() { 1.0 } else { (2.0 * normal_tail(statistic.abs())).min(1.0) }
 }
 
 fn refine(mut x: f64, tail: f64, sf: impl Fn(f64) -> f64, pdf: impl Fn(f64) -> f64) -> f64 {

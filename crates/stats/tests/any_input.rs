@@ -196,6 +196,16 @@ fn counts_over_pixels_take_anything() {
             let CoverageTally { total, covered, truth_above, truth_below, .. } = tallies[0];
             assert_eq!(covered + truth_above + truth_below, total);
         }
+        let other = Observed { mean: &denoised, variance: &noise, ..observed };
+        for test in MembershipTest::ALL {
+            let shift = if picks.next().is_multiple_of(2) { 0.0 } else { picks.number() };
+            if let Ok(tallies) = rejections(&observed, &other, test, shift, level, Some(groups)) {
+                let RejectionTally { total, rejected, pixels, pixels_rejected, .. } = tallies[0];
+                assert!(rejected <= total && pixels_rejected <= pixels, "{tallies:?}");
+            }
+            let expected = test.asymptotic_rejection(picks.number(), picks.number().abs(), level);
+            assert!(expected.is_nan() || (0.0..=1.0).contains(&expected), "{expected}");
+        }
         if let Ok(widths) = half_widths(&observed, &[(picks.number(), level)]) {
             let _ = enclosure(&denoised, &widths, &observed);
             let tallies = bound_violations(&denoised, &widths, &observed, &truth, level, Some(groups));

@@ -3,6 +3,7 @@
 mod bounds;
 mod citations;
 mod filter;
+mod membership;
 mod neighbors;
 
 use noisefloor_conformance::assert_conforms;
