@@ -20,6 +20,7 @@ mod intervals;
 mod level;
 mod list;
 mod measuring;
+mod membership;
 mod own_error;
 mod paper;
 mod question;

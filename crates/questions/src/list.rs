@@ -7,7 +7,7 @@ use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
     bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth,
-    instrument, intervals, own_error, paper, statistics,
+    instrument, intervals, membership, own_error, paper, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -21,6 +21,7 @@ pub const QUESTIONS: &[Question] = &[
     coverage::QUESTION,
     intervals::QUESTION,
     bounds::QUESTION,
+    membership::QUESTION,
     own_error::QUESTION,
     growth::QUESTION,
     equal_time::QUESTION,

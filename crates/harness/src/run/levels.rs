@@ -109,6 +109,7 @@ fn levels<'a>(runner: &Runner<'a>, records: &Records) -> Vec<Level<'a>> {
             "frames": frames.iter().map(|frame| &frame.key).collect::<Vec<_>>(),
             "cells": cells,
             "coverage": runner.request.study.coverage,
+            "membership": runner.request.study.membership,
         }));
         Level { spp, key, frames, outputs }
     };

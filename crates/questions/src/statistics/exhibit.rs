@@ -30,10 +30,11 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 /// Questions whose claims are judged, in the order of the page, with their headings.
-const KINDS: [(&str, &str); 6] = [
+const KINDS: [(&str, &str); 7] = [
     ("coverage", "The input's confidence intervals"),
     ("intervals", "Other intervals"),
     ("bounds", "Error bounds"),
+    ("membership", "Tests of membership"),
     ("own_error", "Methods' estimates of their own error"),
     ("convergence", "Convergence of the input"),
     ("paper", "What the source work reports"),

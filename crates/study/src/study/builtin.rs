@@ -58,6 +58,7 @@ const STUDIES: &[BuiltinStudy] = studies![
     "bounds",
     "calibration",
     "guarantee-cost",
+    "membership",
     "instrument",
     "liu-fig01",
     "liu-fig02",

@@ -45,6 +45,9 @@ pub struct Study {
     /// Families of intervals that are measured and judged beside Student's t, by their ids.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub intervals: Vec<String>,
+    /// Whether tests of membership are measured.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub membership: bool,
     /// Optional statistics of the colour that rendered and drawn frames get, by their names, each once: see
     /// [`noisefloor_frame::Statistic`]. Frames of folders have their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -41,6 +41,8 @@ struct Raw {
     #[serde(default)]
     intervals: Vec<String>,
     #[serde(default)]
+    membership: bool,
+    #[serde(default)]
     statistics: Vec<String>,
     #[serde(default)]
     seed: u64,
@@ -204,6 +206,7 @@ impl Study {
             filter: raw.filter,
             feature_hit: raw.feature_hit,
             intervals: raw.intervals,
+            membership: raw.membership,
             statistics: raw.statistics,
             seed: raw.seed,
             sampling: raw.sampling,

@@ -22,6 +22,7 @@ impl Study {
             filter: PixelFilter::Box,
             feature_hit: FeatureHit::First,
             intervals: Vec::new(),
+            membership: false,
             statistics: Vec::new(),
             seed: 0,
             sampling: Sampling::Independent,
