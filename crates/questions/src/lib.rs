@@ -23,6 +23,7 @@ mod paper;
 mod question;
 mod readme;
 mod records;
+mod reference_free;
 mod shown;
 mod statistics;
 mod summarise;

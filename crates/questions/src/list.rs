@@ -6,8 +6,8 @@ use crate::cell::{Cell, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
-    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth,
-    instrument, own_error, paper, statistics,
+    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker,
+    growth, instrument, own_error, paper, reference_free, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -19,6 +19,7 @@ pub const QUESTIONS: &[Question] = &[
     cost::QUESTION,
     statistics::QUESTION,
     coverage::QUESTION,
+    reference_free::QUESTION,
     bounds::QUESTION,
     own_error::QUESTION,
     growth::QUESTION,

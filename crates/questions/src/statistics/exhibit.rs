@@ -30,8 +30,9 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 /// Questions whose claims are judged, in the order of the page, with their headings.
-const KINDS: [(&str, &str); 5] = [
+const KINDS: [(&str, &str); 6] = [
     ("coverage", "The input's confidence intervals"),
+    ("reference_free", "The input's confidence intervals, without a reference"),
     ("bounds", "Error bounds"),
     ("own_error", "Methods' estimates of their own error"),
     ("convergence", "Convergence of the input"),
