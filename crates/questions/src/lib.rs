@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bias_variance;
 mod bounds;
 mod breakage;
 pub mod cell;

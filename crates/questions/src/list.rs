@@ -6,7 +6,7 @@ use crate::cell::{Cell, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
-    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker,
+    bias_variance, bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker,
     growth, instrument, own_error, paper, reference_free, statistics,
 };
 
@@ -16,6 +16,7 @@ pub const QUESTIONS: &[Question] = &[
     error::QUESTION,
     comparison::QUESTION,
     convergence::QUESTION,
+    bias_variance::QUESTION,
     cost::QUESTION,
     statistics::QUESTION,
     coverage::QUESTION,
