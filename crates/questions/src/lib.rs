@@ -21,6 +21,7 @@ mod list;
 mod measuring;
 mod own_error;
 mod paper;
+mod pit;
 mod question;
 mod readme;
 mod records;

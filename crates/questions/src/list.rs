@@ -7,7 +7,7 @@ use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
     bias_variance, bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker,
-    growth, instrument, own_error, paper, reference_free, statistics,
+    growth, instrument, own_error, paper, pit, reference_free, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -21,6 +21,7 @@ pub const QUESTIONS: &[Question] = &[
     statistics::QUESTION,
     coverage::QUESTION,
     reference_free::QUESTION,
+    pit::QUESTION,
     bounds::QUESTION,
     own_error::QUESTION,
     growth::QUESTION,

@@ -30,9 +30,10 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 /// Questions whose claims are judged, in the order of the page, with their headings.
-const KINDS: [(&str, &str); 6] = [
+const KINDS: [(&str, &str); 7] = [
     ("coverage", "The input's confidence intervals"),
     ("reference_free", "The input's confidence intervals, without a reference"),
+    ("pit", "Uniformity of the input's probability integral transform"),
     ("bounds", "Error bounds"),
     ("own_error", "Methods' estimates of their own error"),
     ("convergence", "Convergence of the input"),
