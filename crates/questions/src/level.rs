@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use noisefloor_frame::{Frame, Image, Reference};
 use noisefloor_stats::IntervalFamily;
-use noisefloor_study::Study;
+use noisefloor_study::{BASELINE, MethodRow, RowFrames, Study};
 use serde_json::Value;
 
 use crate::cell::{Measure, PixelClasses};
@@ -57,6 +57,12 @@ impl std::fmt::Debug for LevelCell<'_> {
 }
 
 impl LevelCell<'_> {
+    /// Label of the row that is the input itself, on the study's own frames.
+    pub(crate) fn input_label(&self) -> &str {
+        let plain = |row: &&MethodRow| row.id == BASELINE && row.frames == RowFrames::Uniform;
+        self.study.methods.iter().find(plain).map_or(BASELINE, |row| row.label.as_str())
+    }
+
     /// Each frame against the truth.
     pub(crate) fn measures(&self) -> impl Iterator<Item = Measure<'_>> {
         self.frames.iter().map(|f| {
@@ -85,3 +91,6 @@ pub struct LevelFound {
     /// Pictures for the viewer.
     pub maps: Vec<Map>,
 }
+
+#[cfg(test)]
+pub(crate) mod made;

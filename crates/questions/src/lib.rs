@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bias_variance;
 mod bounds;
 mod breakage;
 pub mod cell;
@@ -23,9 +24,11 @@ mod measuring;
 mod membership;
 mod own_error;
 mod paper;
+mod pit;
 mod question;
 mod readme;
 mod records;
+mod reference_free;
 mod shown;
 mod spread;
 mod statistics;

@@ -6,8 +6,8 @@ use crate::cell::{Cell, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 use crate::question::Question;
 use crate::{
-    bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker, growth,
-    instrument, intervals, membership, own_error, paper, statistics,
+    bias_variance, bounds, breakage, comparison, convergence, cost, coverage, equal_time, error, flicker,
+    growth, instrument, intervals, membership, own_error, paper, pit, reference_free, statistics,
 };
 
 /// All questions, in the order in which they are measured, analysed and shown.
@@ -16,9 +16,12 @@ pub const QUESTIONS: &[Question] = &[
     error::QUESTION,
     comparison::QUESTION,
     convergence::QUESTION,
+    bias_variance::QUESTION,
     cost::QUESTION,
     statistics::QUESTION,
     coverage::QUESTION,
+    reference_free::QUESTION,
+    pit::QUESTION,
     intervals::QUESTION,
     bounds::QUESTION,
     membership::QUESTION,

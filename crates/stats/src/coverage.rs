@@ -160,10 +160,34 @@ pub fn coverage_of(
     level: Level,
     groups: Option<Groups<'_>>,
 ) -> Result<Vec<CoverageTally>, ShapeError> {
+    count(observed, truth, level, groups, reach_of(intervals, observed)?)
+}
+
+/// The counts of [`coverage_of`] in every pixel, all channels together; row by row.
+///
+/// # Errors
+/// [`ShapeError`] if the slices do not belong together.
+pub fn coverage_of_pixels(
+    intervals: &IntervalPlanes,
+    observed: &Observed<'_>,
+    truth: &Truth<'_>,
+    level: Level,
+) -> Result<Vec<CoverageTally>, ShapeError> {
+    let reach = reach_of(intervals, observed)?;
+    truth.check(observed.mean.len())?;
+    let t_truth = normal_quantile(level);
+    Ok((0..observed.pixels).map(|pixel| of_pixel(observed, truth, t_truth, &reach, pixel)).collect())
+}
+
+/// Distances of both ends from the mean, where there is an interval.
+fn reach_of<'a>(
+    intervals: &'a IntervalPlanes,
+    observed: &'a Observed<'_>,
+) -> Result<impl Fn(usize) -> Option<[f64; 2]> + 'a, ShapeError> {
     observed.check()?;
     expect("lower ends", intervals.low.len(), observed.mean.len())?;
     expect("upper ends", intervals.high.len(), observed.mean.len())?;
-    count(observed, truth, level, groups, |i| {
+    Ok(move |i: usize| {
         let mean = f64::from(observed.mean[i]);
         let (below, above) = (mean - intervals.low[i], intervals.high[i] - mean);
         (below.is_finite() || above.is_finite()).then_some([below, above])
@@ -180,22 +204,31 @@ fn count(
 ) -> Result<Vec<CoverageTally>, ShapeError> {
     truth.check(observed.mean.len())?;
     let t_truth = normal_quantile(level);
-    tally(groups, observed.pixels, |pixel| {
-        let mut tally = CoverageTally::default();
-        if !observed.takes_part(pixel) {
-            return tally;
+    tally(groups, observed.pixels, |pixel| of_pixel(observed, truth, t_truth, &reach, pixel))
+}
+
+/// The channels of a pixel; `t_truth` is the critical value of the truth's noise.
+fn of_pixel(
+    observed: &Observed<'_>,
+    truth: &Truth<'_>,
+    t_truth: f64,
+    reach: &impl Fn(usize) -> Option<[f64; 2]>,
+    pixel: usize,
+) -> CoverageTally {
+    let mut tally = CoverageTally::default();
+    if !observed.takes_part(pixel) {
+        return tally;
+    }
+    for i in (pixel..observed.mean.len()).step_by(observed.pixels) {
+        let (mean, r) = (f64::from(observed.mean[i]), f64::from(truth.mean[i]));
+        let (variance, noise) = (f64::from(observed.variance[i]).max(0.0), truth.variance_at(i));
+        if !(mean - r + variance + noise).is_finite() {
+            continue;
         }
-        for i in (pixel..observed.mean.len()).step_by(observed.pixels) {
-            let (mean, r) = (f64::from(observed.mean[i]), f64::from(truth.mean[i]));
-            let (variance, noise) = (f64::from(observed.variance[i]).max(0.0), truth.variance_at(i));
-            if !(mean - r + variance + noise).is_finite() {
-                continue;
-            }
-            if let Some(reach) = reach(i) {
-                let corrected = side(mean, r, reach, t_truth * noise.sqrt());
-                tally.count(variance > 0.0, side(mean, r, reach, 0.0), corrected);
-            }
+        if let Some(reach) = reach(i) {
+            let corrected = side(mean, r, reach, t_truth * noise.sqrt());
+            tally.count(variance > 0.0, side(mean, r, reach, 0.0), corrected);
         }
-        tally
-    })
+    }
+    tally
 }

@@ -43,7 +43,7 @@ pub use binomial::{BinomialError, MOST_TRIALS, binomial_p_against, binomial_two_
 pub use bounds::{BoundTally, bound_violations, half_widths};
 pub use compare::{Comparison, Direction, Family, Pair, Row, compare};
 pub use convergence::{Convergence, Trend, convergence};
-pub use coverage::{CoverageTally, coverage, coverage_of};
+pub use coverage::{CoverageTally, coverage, coverage_of, coverage_of_pixels};
 pub use enclosure::{Enclosure, enclosure};
 pub use equal_error::{Multiplier, equal_error_multiplier};
 pub use gate::{Answer, Change, Gate, Judgement, Terms, gate};
@@ -52,7 +52,9 @@ pub use interval::{Interval, replicate_interval};
 pub use intervals::{
     FAMILIES, IntervalFamily, IntervalNeed, IntervalPlanes, SamplePlanes, family, students_t,
 };
-pub use leave_one_out::{LeaveOneOutError, LeaveOneOutTally, leave_one_out};
+pub use leave_one_out::{
+    LeaveOneOut, LeaveOneOutError, LeaveOneOutTally, PixelSpread, leave_one_out, leave_one_out_interval,
+};
 pub use level::{Level, LevelError, Sides};
 pub use levels::Levels;
 pub use membership::{MembershipTest, RejectionTally, SampleMean, interval_rejection, rejections};

@@ -30,8 +30,10 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 /// Questions whose claims are judged, in the order of the page, with their headings.
-const KINDS: [(&str, &str); 7] = [
+const KINDS: [(&str, &str); 9] = [
     ("coverage", "The input's confidence intervals"),
+    ("reference_free", "The input's confidence intervals, without a reference"),
+    ("pit", "Uniformity of the input's probability integral transform"),
     ("intervals", "Other intervals"),
     ("bounds", "Error bounds"),
     ("membership", "Tests of membership"),

@@ -5,6 +5,8 @@ use noisefloor_study::format::{significant, superscript};
 /// How values map to [0, 1] along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
+    /// The value itself.
+    Linear,
     /// Logarithm of the value.
     Log,
     /// Logarithm with a strip for zero: the share of the axis at its start that stands for 0.
@@ -42,6 +44,8 @@ impl Axis {
         // Ranges are positive and not empty by construction, see `log_range`.
         let log = |v: f64| (v.max(1e-300) / self.low).ln() / (self.high / self.low).ln();
         match self.scale {
+            // Not empty by construction, see `scales`.
+            Scale::Linear => (value - self.low) / (self.high - self.low),
             Scale::Log => log(value),
             Scale::LogWithZero(strip) if value <= 0.0 => strip * 0.5,
             // Nothing falls into the strip that stands for zero.

@@ -15,6 +15,7 @@ impl Axis {
     pub(crate) fn of(asked: &exhibit::Axis) -> Self {
         let values = || asked.values.iter().copied();
         match asked.scale {
+            exhibit::Scale::Linear => linear(&asked.title, &asked.values),
             exhibit::Scale::Log => Self::log(&asked.title, values()),
             exhibit::Scale::Seconds => Self::seconds(&asked.title, values()),
             exhibit::Scale::LogWithZero => with_zero(&asked.title, &asked.values),
@@ -28,6 +29,37 @@ impl Axis {
             }
         }
     }
+}
+
+/// From the lowest to the highest value with a margin, ticks at 1, 2 or 5 times a power of ten.
+fn linear(title: &str, values: &[f64]) -> Axis {
+    // Beyond this a span could overflow.
+    let finite = || values.iter().copied().filter(|v| v.abs() < 1e300);
+    let (mut low, mut high) =
+        finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
+    if low > high {
+        (low, high) = (0.0, 1.0);
+    }
+    // At least a millionth of the values, so that ticks stay apart; a single zero gets a range of its own.
+    let least = (1e-6 * low.abs().max(high.abs())).max(1e-290);
+    let margin = (0.05 * (high - low)).max(least);
+    let (low, high) = (low - margin, high + margin);
+    let step = round_step((high - low) / 5.0);
+    let (first, last) = ((low / step).ceil() as i64, (high / step).floor() as i64);
+    let decimals = (-step.log10().floor()).clamp(0.0, 12.0) as usize;
+    let tick = |k: i64| {
+        let value = k as f64 * step;
+        let text = if k == 0 { "0".to_owned() } else { format!("{value:.decimals$}").replace('-', "−") };
+        Tick { value, label: Some(text) }
+    };
+    Axis { scale: Scale::Linear, low, high, ticks: (first..=last).map(tick).collect(), title: title.into() }
+}
+
+/// The least of 1, 2 or 5 times a power of ten that is not below a positive span.
+fn round_step(span: f64) -> f64 {
+    let ten = 10f64.powf(span.log10().floor());
+    let digit = [1.0, 2.0, 5.0].into_iter().find(|digit| digit * ten >= span);
+    ten * digit.unwrap_or(10.0)
 }
 
 /// Rates from zero: values under one in ten million do not stretch the axis, and a rate ends at 1.
@@ -93,6 +125,15 @@ mod tests {
     }
 
     #[test]
+    fn a_linear_axis_goes_through_zero_in_round_steps() {
+        let axis = axis(exhibit::Scale::Linear, &[-0.05, 0.12]);
+        assert_eq!(labels(&axis), ["−0.05", "0", "0.05", "0.10"]);
+        let middle = axis.position(0.035);
+        assert!((middle - 0.5).abs() < 1e-12 && axis.position(-0.05) > 0.0 && axis.position(0.12) < 1.0);
+        assert!(axis.holds(-0.01) && axis.holds(0.0));
+    }
+
+    #[test]
     fn levels_are_named_once_and_in_order() {
         assert_eq!(
             labels(&axis(exhibit::Scale::Levels, &[64.0, 4.0, 16.0, 4.0, f64::NAN])),
@@ -102,8 +143,8 @@ mod tests {
 
     #[test]
     fn every_scale_survives_having_no_values() {
-        use exhibit::Scale::{Levels, Log, LogWithZero, Miss, Seconds};
-        for scale in [Levels, Log, LogWithZero, Miss, Seconds] {
+        use exhibit::Scale::{Levels, Linear, Log, LogWithZero, Miss, Seconds};
+        for scale in [Linear, Levels, Log, LogWithZero, Miss, Seconds] {
             for values in [vec![], vec![f64::NAN, f64::INFINITY, -1.0], vec![1.0], vec![0.0]] {
                 let axis = axis(scale, &values);
                 for v in [0.0, 0.5, 1.0, 7.0] {

@@ -58,6 +58,8 @@ pub struct Axis {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Scale {
+    /// The value itself.
+    Linear,
     /// Logarithm of the value.
     Log,
     /// Logarithm with a strip at the low end that stands for 0.

@@ -1,0 +1,41 @@
+//! What a reader sees.
+
+mod chart;
+mod table;
+
+use noisefloor_study::exhibit::{Exhibit, Part};
+
+use super::ID;
+use super::analyse::Finding;
+use crate::view::View;
+
+const NOTE: &str = "The squared error of a row, split into the square of its bias, which no number of replicates takes away, and the \
+    variance of one replicate. Relative: each pixel's error over the square of its brightness, as in relMSE. Bias squared is unbiased \
+    and may come out negative; where it is below its uncertainty only an upper limit is told.";
+
+pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
+    let found = view.summary.answers.get(ID).cloned();
+    // Of a newer program, which may tell it in another form.
+    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let (mut tables, mut charts) = (Vec::new(), Vec::new());
+    for (scene, name) in view.named_scenes() {
+        let here: Vec<&Finding> = found.iter().filter(|f| f.scene == scene.id).collect();
+        if !here.is_empty() {
+            tables.push(Part::Heading(scene.title.clone()));
+            tables.extend(table::parts(view, &name, &here));
+            charts.extend(chart::chart(view, scene, &name, &here).filter(|_| view.draws("bias")));
+        }
+    }
+    if tables.is_empty() {
+        return Vec::new();
+    }
+    let mut parts = vec![Part::Note(NOTE.into())];
+    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
+    parts.extend(tables);
+    vec![Exhibit {
+        id: ID.into(),
+        name: "Bias and variance".into(),
+        title: "Bias and variance of the errors".into(),
+        parts,
+    }]
+}
