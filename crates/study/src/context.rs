@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use noisefloor_frame::{Finding, Integrator, Sampling};
 use serde::{Deserialize, Serialize};
 
-use crate::look::Look;
+use crate::look::{Counts, Look};
 use crate::summary::{Environment, MethodSummary};
 use crate::{Flicker, Key, Maps};
 
@@ -35,6 +35,14 @@ pub struct Context {
     /// here in a recorded study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub looks: Vec<Look>,
+}
+
+impl Context {
+    /// Replicates that the study asks for.
+    #[must_use]
+    pub fn planned(&self) -> Counts {
+        self.plan.iter().map(|scene| (scene.id.clone(), scene.replicates.clone())).collect()
+    }
 }
 
 /// Frames that a run means to denoise on a scene.

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::context::Context;
 use crate::record::{Outcome, Record};
 
 /// Scene to level to a number of replicates.
@@ -27,9 +26,9 @@ pub struct Look {
 }
 
 impl Look {
-    /// The analysis of these records.
+    /// The analysis of these records of a study that asks for `planned` replicates.
     #[must_use]
-    pub fn of(context: &Context, records: &[Record], date: String) -> Self {
+    pub fn of(planned: Counts, records: &[Record], date: String) -> Self {
         let mut seen: BTreeMap<(&str, u32), BTreeSet<u32>> = BTreeMap::new();
         for record in records.iter().filter(|record| record.outcome == Outcome::Done) {
             seen.entry((&record.scene, record.spp)).or_default().insert(record.replicate);
@@ -38,7 +37,6 @@ impl Look {
         for ((scene, spp), found) in seen {
             replicates.entry(scene.to_owned()).or_default().insert(spp, found.len() as u32);
         }
-        let planned = context.plan.iter().map(|scene| (scene.id.clone(), scene.replicates.clone())).collect();
         Self { date, cells: records.len() as u64, replicates, planned }
     }
 
