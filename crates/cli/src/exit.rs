@@ -156,7 +156,7 @@ mod tests {
         for exit in Exit::ALL {
             assert!(help.contains(&format!("{:>3}  {}", exit.code(), exit.meaning())), "{help}");
         }
-        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 130]);
+        assert_eq!(Exit::ALL.map(Exit::code), [0, 1, 2, 3, 4, 5, 6, 130]);
     }
 
     #[test]
