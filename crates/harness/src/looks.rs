@@ -22,7 +22,7 @@ pub(crate) fn noted(
     records: &[Record],
 ) -> Result<Vec<Look>, HarnessError> {
     let mut looks = read(layout);
-    let now = Look::of(context, records, machine::now());
+    let now = Look::of(context.planned(), records, machine::now());
     let known = looks.iter().any(|look| look.replicates == now.replicates);
     if !known && !now.replicates.is_empty() {
         let path = layout.looks();

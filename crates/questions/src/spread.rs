@@ -25,11 +25,14 @@ pub struct Spread {
     pub tenth: f64,
 }
 
+/// Records by label.
+type Rows<'a> = BTreeMap<&'a str, Vec<&'a Record>>;
+
 /// By scene and level, in the order of the records; levels without two replicates of two rows are absent. Rows whose numbers
 /// are the same are no pair.
 #[must_use]
 pub fn spreads(records: &[Record], metric: &str) -> Vec<Spread> {
-    let mut levels: Vec<(&str, u32, BTreeMap<&str, Vec<&Record>>)> = Vec::new();
+    let mut levels: Vec<(&str, u32, Rows<'_>)> = Vec::new();
     for record in records.iter().filter(|record| record.outcome == Outcome::Done) {
         let same =
             |(scene, spp, _): &&mut (&str, u32, _)| (*scene, *spp) == (record.scene.as_str(), record.spp);
@@ -43,7 +46,7 @@ pub fn spreads(records: &[Record], metric: &str) -> Vec<Spread> {
     levels.into_iter().filter_map(|(scene, spp, rows)| of_level(scene, spp, &rows, metric)).collect()
 }
 
-fn of_level(scene: &str, spp: u32, rows: &BTreeMap<&str, Vec<&Record>>, metric: &str) -> Option<Spread> {
+fn of_level(scene: &str, spp: u32, rows: &Rows<'_>, metric: &str) -> Option<Spread> {
     let values: Vec<Vec<Option<f64>>> =
         rows.values().map(|records| by_replicate(records, None, metric)).collect();
     let mut found = Vec::new();

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::check::CheckRecord;
-use crate::look::Look;
+use crate::look::{Counts, Look};
 use crate::summary::{Environment, MethodSummary};
 use crate::{Flicker, Key, Maps};
 
@@ -40,6 +40,14 @@ pub struct Context {
     /// here in a recorded study.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub looks: Vec<Look>,
+}
+
+impl Context {
+    /// Replicates that the study asks for.
+    #[must_use]
+    pub fn planned(&self) -> Counts {
+        self.plan.iter().map(|scene| (scene.id.clone(), scene.replicates.clone())).collect()
+    }
 }
 
 /// Frames that a run means to denoise on a scene.

@@ -4,7 +4,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 
-use crate::context::Context;
 use crate::record::{Outcome, Record};
 
 /// Scene to level to a number of replicates.
@@ -27,9 +26,9 @@ pub struct Look {
 }
 
 impl Look {
-    /// The analysis of these records.
+    /// The analysis of these records of a study that asks for `planned` replicates.
     #[must_use]
-    pub fn of(context: &Context, records: &[Record], date: String) -> Self {
+    pub fn of(planned: Counts, records: &[Record], date: String) -> Self {
         let mut seen: BTreeMap<(&str, u32), BTreeSet<u32>> = BTreeMap::new();
         for record in records.iter().filter(|record| record.outcome == Outcome::Done) {
             seen.entry((&record.scene, record.spp)).or_default().insert(record.replicate);
@@ -38,7 +37,6 @@ impl Look {
         for ((scene, spp), found) in seen {
             replicates.entry(scene.to_owned()).or_default().insert(spp, found.len() as u32);
         }
-        let planned = context.plan.iter().map(|scene| (scene.id.clone(), scene.replicates.clone())).collect();
         Self { date, cells: records.len() as u64, replicates, planned }
     }
 
@@ -71,13 +69,14 @@ mod tests {
 
     #[test]
     fn a_number_outgrows_a_look_unless_it_was_planned_before_it() {
+        const NONE: [u32; 0] = [];
         let outgrown = |then: Look, now: Look| then.outgrown(&now).into_iter().collect::<Vec<_>>();
         assert_eq!(outgrown(look(4, 4), look(8, 8)), [4]);
-        assert_eq!(outgrown(look(4, 4), look(4, 4)), []);
-        assert_eq!(outgrown(look(2, 4), look(4, 4)), [], "stopped, looked at, and finished as planned");
+        assert_eq!(outgrown(look(4, 4), look(4, 4)), NONE);
+        assert_eq!(outgrown(look(2, 4), look(4, 4)), NONE, "stopped, looked at, and finished as planned");
         assert_eq!(outgrown(look(2, 16), look(5, 16)), [2], "stopped at a number that nobody planned");
-        assert_eq!(outgrown(look(8, 8), look(4, 4)), [], "fewer are no growth");
+        assert_eq!(outgrown(look(8, 8), look(4, 4)), NONE, "fewer are no growth");
         let elsewhere = Look { replicates: Counts::new(), ..look(1, 1) };
-        assert_eq!(outgrown(elsewhere, look(8, 8)), [], "that scene had not been seen");
+        assert_eq!(outgrown(elsewhere, look(8, 8)), NONE, "that scene had not been seen");
     }
 }

@@ -9,7 +9,7 @@ pub(super) fn text(plans: &Plans) -> String {
     let Plans { study, cells, finished_cells, pairs, metric, .. } = plans;
     let mut out = format!("{study}: {cells} cells, {finished_cells} of them finished\n\n");
     out.push_str(&format!(
-        "smallest ratio of {metric} told from 1, by 95 % intervals at the first step of Holm's rule over the {pairs} pairs of a \
+        "ratio of {metric} nearest to 1 that is told from it, by 95 % intervals at the first step of Holm's rule over the {pairs} pairs of a \
          cell\n"
     ));
     out.push_str(&match &plans.spread_from {

@@ -9,7 +9,7 @@ use noisefloor_study::summary::{Warning, WarningKind};
 
 /// A sentence if replicates were added after the study had been analysed with fewer.
 pub(super) fn warning(context: &Context, records: &[Record]) -> Option<Warning> {
-    let now = Look::of(context, records, String::new());
+    let now = Look::of(context.planned(), records, String::new());
     let outgrown = context.looks.iter().map(|look| (look, look.outgrown(&now)));
     let grown: Vec<(&Look, BTreeSet<u32>)> = outgrown.filter(|(_, numbers)| !numbers.is_empty()).collect();
     if grown.is_empty() {

@@ -95,7 +95,6 @@ fn of<'a>(version: Version<'a>, (scene, spp, label): (&str, u32, &str)) -> BTree
 }
 
 /// Replicates that both have; why the new version is broken, if it is; and how many others there are.
-#[expect(clippy::type_complexity)]
 fn pairs<'a>(
     old: &BTreeMap<u32, &'a Record>,
     new: &BTreeMap<u32, &'a Record>,

@@ -8,6 +8,9 @@ use noisefloor_study::record::{Outcome, Record};
 
 use crate::gate::version::Version;
 
+/// Levels and replicates.
+type Cells = Vec<(u32, u32)>;
+
 /// One way in which the inputs of two versions are not known to be the same.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mismatch {
@@ -27,7 +30,7 @@ pub enum Mismatch {
         /// Scene id.
         scene: String,
         /// Level and replicate of each.
-        cells: Vec<(u32, u32)>,
+        cells: Cells,
     },
     /// The references of a scene differ, or nobody knows what they are.
     Reference(String),
@@ -40,7 +43,7 @@ pub enum Mismatch {
         /// Scene id.
         scene: String,
         /// Level and replicate of each.
-        cells: Vec<(u32, u32)>,
+        cells: Cells,
         /// Whether they are known to differ; else nothing tells that they are the same.
         known: bool,
     },
@@ -79,9 +82,8 @@ impl fmt::Display for Mismatch {
 fn list(cells: &[(u32, u32)]) -> String {
     let told = |(spp, replicate): &(u32, u32)| format!("{spp} spp, replicate {replicate}");
     match cells {
-        [all @ ..] if all.len() <= 2 => all.iter().map(told).collect::<Vec<_>>().join("; "),
-        [first, rest @ ..] => format!("{} and {} more", told(first), rest.len()),
-        [] => String::new(),
+        [first, rest @ ..] if rest.len() >= 2 => format!("{} and {} more", told(first), rest.len()),
+        few => few.iter().map(told).collect::<Vec<_>>().join("; "),
     }
 }
 
@@ -99,8 +101,8 @@ pub(super) fn mismatches(old: Version<'_>, new: Version<'_>) -> Vec<Mismatch> {
     let of_new: BTreeMap<Place<'_>, &Record> = new.records.iter().map(|r| (place(r), r)).collect();
     let same_frames = SameFrames::of(old, new);
     let ran = |record: &&Record| record.outcome == Outcome::Done;
-    let mut absent: BTreeMap<(&str, &str), Vec<(u32, u32)>> = BTreeMap::new();
-    let mut frames: BTreeMap<(&str, &str, bool), Vec<(u32, u32)>> = BTreeMap::new();
+    let mut absent: BTreeMap<(&str, &str), Cells> = BTreeMap::new();
+    let mut frames: BTreeMap<(&str, &str, bool), Cells> = BTreeMap::new();
     for record in old.records.iter().filter(ran) {
         let (scene, label) = (record.scene.as_str(), record.label.as_str());
         if !new.records.iter().any(|r| r.scene == scene) {
