@@ -72,12 +72,13 @@ mod tests {
     #[test]
     fn a_number_outgrows_a_look_unless_it_was_planned_before_it() {
         let outgrown = |then: Look, now: Look| then.outgrown(&now).into_iter().collect::<Vec<_>>();
+        const NONE: [u32; 0] = [];
         assert_eq!(outgrown(look(4, 4), look(8, 8)), [4]);
-        assert_eq!(outgrown(look(4, 4), look(4, 4)), []);
-        assert_eq!(outgrown(look(2, 4), look(4, 4)), [], "stopped, looked at, and finished as planned");
+        assert_eq!(outgrown(look(4, 4), look(4, 4)), NONE);
+        assert_eq!(outgrown(look(2, 4), look(4, 4)), NONE, "stopped, looked at, and finished as planned");
         assert_eq!(outgrown(look(2, 16), look(5, 16)), [2], "stopped at a number that nobody planned");
-        assert_eq!(outgrown(look(8, 8), look(4, 4)), [], "fewer are no growth");
+        assert_eq!(outgrown(look(8, 8), look(4, 4)), NONE, "fewer are no growth");
         let elsewhere = Look { replicates: Counts::new(), ..look(1, 1) };
-        assert_eq!(outgrown(elsewhere, look(8, 8)), [], "that scene had not been seen");
+        assert_eq!(outgrown(elsewhere, look(8, 8)), NONE, "that scene had not been seen");
     }
 }
