@@ -24,7 +24,8 @@ pub(crate) struct Claim {
 }
 
 impl Claim {
-    fn judged(&self) -> Judged {
+    /// By itself.
+    pub(crate) fn judged(&self) -> Judged {
         let region = match self.scale {
             Scale::Ratio => self.region.and_then(Region::ln),
             Scale::Share | Scale::Number => self.region,

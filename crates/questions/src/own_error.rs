@@ -5,6 +5,8 @@ mod exhibit;
 mod measure;
 mod readme;
 
+pub(crate) use analyse::claim;
+
 use crate::question::Question;
 
 pub(crate) const QUESTION: Question = Question {

@@ -110,3 +110,6 @@ pub(super) fn claims(
         );
     }
 }
+
+#[cfg(test)]
+mod tests;

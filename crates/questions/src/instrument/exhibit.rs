@@ -14,9 +14,6 @@ const NOTE: &str = "The instrument checks itself: intervals on samples whose cov
     independence of frames and reference (I5), estimates of the own error where the variance is known (I7). One family: a report without a \
     fault fails in at most 1 of 100.";
 
-/// Most failures that the first screen names one by one.
-const MOST_NAMED: usize = 4;
-
 pub(super) fn answer(view: &View<'_>) -> Option<Answer> {
     let all = checks(view.summary);
     if all.is_empty() {
@@ -33,17 +30,27 @@ pub(super) fn answer(view: &View<'_>) -> Option<Answer> {
             failed.len(),
             format::plural(all.len() - silent, "check")
         ));
-        sentences.extend(failed.iter().take(MOST_NAMED).map(|check| format!("{}.", sentence(check))));
-        let more = failed.len().saturating_sub(MOST_NAMED);
-        sentences.extend((more > 0).then(|| format!("{more} more are listed below.")));
+        sentences.extend(CheckKind::ALL.into_iter().filter_map(|kind| largest(kind, &failed)));
     }
-    sentences.extend((silent > 0).then(|| format!("{silent} could not tell: too few bright samples.")));
+    sentences.extend((silent > 0).then(|| format!("{silent} could not tell, for the reasons below.")));
     let tone = match (failed.is_empty(), silent) {
         (false, _) => Tone::Bad,
         (true, 0) => Tone::Good,
         (true, _) => Tone::Plain,
     };
     Some(Answer { question: "Does the instrument work?".into(), sentences, tone })
+}
+
+/// The largest fault that a kind of check found, and how many more: no kind hides behind another that finds many.
+fn largest(kind: CheckKind, failed: &[&Check]) -> Option<String> {
+    let of_kind = || failed.iter().filter(|check| check.record.kind == kind);
+    let size = |check: &Check| check.record.found.map_or(0.0, |found| found.z.abs());
+    let worst = of_kind().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+    let more = match of_kind().count() - 1 {
+        0 => String::new(),
+        more => format!(" (and {more} more)"),
+    };
+    Some(format!("{}{more}.", sentence(worst)))
 }
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {

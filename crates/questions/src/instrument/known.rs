@@ -1,10 +1,11 @@
 //! Scenes whose answers are known: the study that an instrument is checked with, and what it must find there.
 
+use noisefloor_frame::Reference;
 use noisefloor_stats::instrument::{bernoulli_coverage, missed_by_all};
-use noisefloor_stats::{Level, MOST_TRIALS, binomial_two_sided_p, rate_standard_error};
+use noisefloor_stats::{Level, MOST_TRIALS, binomial_two_sided_p, rate_standard_error, t_quantile};
 use noisefloor_study::check::{CheckFound, CheckKind, CheckRecord};
 use noisefloor_study::record::{CoverageCount, Record};
-use noisefloor_study::summary::{ClaimSummary, Summary};
+use noisefloor_study::summary::{EstimateSummary, Interval, Summary};
 use noisefloor_study::{
     BASELINE, MethodRow, Replicates, RowFrames, SceneSource, SceneSpec, Shot, Study, Timing,
 };
@@ -13,6 +14,8 @@ use serde_json::Map;
 
 use super::analyse::checks;
 use crate::cell::ALL;
+use crate::own_error;
+use crate::records::LEVEL;
 
 /// Name of the study; who runs it does not check it once more.
 pub const SELF_CHECK: &str = "instrument-check";
@@ -26,6 +29,8 @@ const Q: f64 = 0.02;
 /// Most samples per pixel: the faults that more of them hide show with few.
 const MOST_SPP: u32 = 64;
 const REPLICATES: u32 = 4;
+/// Samples of the furnace's reference: its image is known without, and the noise of a reference counts in every check.
+const REFERENCE_SPP: u32 = 16 * Reference::LEAST_PARTS as u32;
 
 /// The study that checks the instrument which measures `of`: its levels, as far as they are small, on normal samples, rare
 /// events and a furnace. `unbiased` are methods that promise an unbiased estimate of their error.
@@ -65,6 +70,7 @@ pub fn self_check_study(of: &Study, unbiased: &[String]) -> Result<Study, Synthe
     study.title = "Checks of the instrument".into();
     study.question = "Do intervals, variances and estimates show what is known?".into();
     study.replicates = Replicates::uniform(REPLICATES);
+    study.reference.spp = REFERENCE_SPP;
     (study.width, study.height) = SELF_CHECK_SIZE;
     study.seed = of.seed;
     study.coverage.clone_from(&of.coverage);
@@ -89,7 +95,7 @@ pub fn self_checks(records: &[Record], summary: &Summary) -> Vec<CheckRecord> {
         out.extend(normal(spp, &here(NORMAL)));
         out.extend(rare(spp, &here(RARE)));
     }
-    out.extend(summary.claims.iter().filter_map(known_variance));
+    out.extend(summary.estimates.iter().filter_map(known_variance));
     // Those that every scene gets, of these scenes.
     out.extend(checks(summary).into_iter().map(|check| check.record));
     for check in &mut out {
@@ -169,22 +175,39 @@ fn binomial(
     })
 }
 
-/// I7: estimated over measured squared error, on normal samples.
-fn known_variance(claim: &ClaimSummary) -> Option<CheckRecord> {
-    if claim.id.question != "own_error" || claim.id.scene != NORMAL {
+/// I7: estimated over measured squared error, on normal samples. It cannot tell where the measured error may be nothing.
+fn known_variance(estimate: &EstimateSummary) -> Option<CheckRecord> {
+    if estimate.scene != NORMAL || estimate.class != ALL {
         return None;
     }
-    let (low, high) = claim.effect.low.zip(claim.effect.high)?;
-    let value = claim.effect.value;
-    // Of the logarithm; the interval is symmetric there, and a p-value of 1 stands for what lies within.
-    let half = 0.5 * (high.ln() - low.ln());
-    let z = if half > 0.0 { 2.0 * value.ln() / half } else { 0.0 };
+    let (mean, measured) = (estimate.estimated.value, estimate.measured.value);
+    let found = own_error::claim(estimate).judged().p.filter(|_| measured > 0.0).map(|p| CheckFound {
+        value: if estimate.is_ratio { estimate.effect.value } else { mean / measured },
+        expected: 1.0,
+        z: standard_errors(&estimate.effect, estimate.is_ratio),
+        p,
+    });
+    let note = if found.is_none() { "the measured error may be nothing" } else { "" };
     Some(CheckRecord {
         kind: CheckKind::KnownVariance,
-        what: format!("estimated over measured error of {}", claim.id.label),
-        scene: claim.id.scene.clone(),
-        spp: claim.id.spp,
-        found: Some(CheckFound { value, expected: 1.0, z, p: claim.p? }),
-        note: String::new(),
+        what: format!("estimated over measured error of {}", estimate.label),
+        scene: estimate.scene.clone(),
+        spp: Some(estimate.spp),
+        found,
+        note: note.into(),
     })
 }
+
+/// Of a ratio from 1, on the logarithm, or of a difference from 0; 0 without an interval.
+fn standard_errors(effect: &Interval, ratio: bool) -> f64 {
+    let scale = |v: f64| if ratio { v.ln() } else { v };
+    let Some((low, high)) = effect.low.zip(effect.high).filter(|_| effect.n > 1) else { return 0.0 };
+    // The interval is symmetric on that scale, and its critical value is above 0.
+    let critical = t_quantile(LEVEL, u64::from(effect.n) - 1);
+    let standard_error = 0.5 * (scale(high) - scale(low)) / critical;
+    let off = scale(effect.value);
+    if off == 0.0 { 0.0 } else { (off / standard_error).clamp(-f64::MAX, f64::MAX) }
+}
+
+#[cfg(test)]
+mod tests;

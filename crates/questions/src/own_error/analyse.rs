@@ -14,7 +14,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     summary.estimates = estimates(index);
     let all: Vec<EstimateSummary> =
         summary.estimates.iter().filter(|estimate| estimate.class == ALL).cloned().collect();
-    all.iter().for_each(|estimate| claim(estimate, summary));
+    all.iter().for_each(|estimate| push(summary, claim(estimate)));
 }
 
 /// Which claim the estimate of a row is.
@@ -28,21 +28,31 @@ pub(super) fn id(scene: &str, spp: u32, label: &str) -> ClaimId {
     }
 }
 
-/// That the estimate is within a fifth of the measured error, by the ratio of the two.
-fn claim(estimate: &EstimateSummary, summary: &mut Summary) {
+/// That the estimate is within a fifth of the measured error, by the ratio of the two, or by their difference where an
+/// estimate is not positive: an estimate below zero is no less wrong than one that is too small.
+pub(crate) fn claim(estimate: &EstimateSummary) -> Claim {
     let measured = &estimate.measured;
-    let claim = Claim {
+    let common = estimate.reference_se;
+    let (scale, region, common) = if estimate.is_ratio {
+        // A ratio has positive parts.
+        (Scale::Ratio, Some(Region::ESTIMATE), common / measured.value)
+    } else {
+        let Region { low, high } = Region::ESTIMATE;
+        let about = |m: f64| Region { low: (low - 1.0) * m, high: (high - 1.0) * m };
+        // Nothing can be judged where the measured error is not sure to be above 0.
+        let sure = measured.low.is_some_and(|low| low > 0.0);
+        (Scale::Number, sure.then(|| about(measured.value)), common)
+    };
+    Claim {
         id: id(&estimate.scene, estimate.spp, &estimate.label),
         sentence: "estimates its own squared error within 0.8 to 1.25 of the measured one".into(),
         effect: estimate.effect.clone(),
         uncorrected: None,
-        // A difference is all that there is where the measured error is not positive.
-        scale: if estimate.is_ratio { Scale::Ratio } else { Scale::Number },
-        region: estimate.is_ratio.then_some(Region::ESTIMATE),
-        common: if measured.value > 0.0 { estimate.reference_se / measured.value } else { 0.0 },
+        scale,
+        region,
+        common,
         trials: None,
-    };
-    push(summary, claim);
+    }
 }
 
 /// Estimated against measured squared error per scene, level, row and class, over replicates.
