@@ -4,6 +4,8 @@ mod analyse;
 mod exhibit;
 mod measure;
 
+pub(crate) use exhibit::coverage_of;
+
 use crate::question::Question;
 
 pub(crate) const QUESTION: Question = Question {

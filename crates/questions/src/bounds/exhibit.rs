@@ -2,6 +2,7 @@
 
 mod chart;
 mod enclosures;
+mod guard;
 mod table;
 
 use noisefloor_study::exhibit::{Exhibit, Part};

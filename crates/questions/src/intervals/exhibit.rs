@@ -6,7 +6,7 @@ use noisefloor_study::exhibit::{
     TableCell, TableRow,
 };
 use noisefloor_study::format;
-use noisefloor_study::summary::SceneSummary;
+use noisefloor_study::summary::{Interval, SceneSummary};
 
 use super::analyse::{Finding, id_of};
 use super::measure::ID;
@@ -20,8 +20,7 @@ const NOTE: &str = "How often intervals around the noisy mean contain the truth,
     width. Truth above: the whole interval lies below the truth, as where rare bright events were met too seldom.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found = findings(view);
     if found.is_empty() {
         return Vec::new();
     }
@@ -45,6 +44,29 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     }
     let title = "Families of intervals: coverage and width".into();
     vec![Exhibit { id: ID.into(), name: "Intervals".into(), title, parts }]
+}
+
+fn findings(view: &View<'_>) -> Vec<Finding> {
+    let found = view.summary.answers.get(ID).cloned();
+    found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
+}
+
+/// What a family covers at a level among pixels with s > 0 or missed events, if that was measured.
+pub(crate) fn coverage_of(
+    view: &View<'_>,
+    scene: &str,
+    spp: u32,
+    family: &str,
+    confidence: f64,
+) -> Option<Interval> {
+    let same = |f: &Finding| {
+        f.scene == scene
+            && f.spp == spp
+            && f.family == family
+            && f.class == ALL
+            && (f.confidence - confidence).abs() < 1e-12
+    };
+    findings(view).into_iter().find(same).map(|f| f.covered)
 }
 
 fn name(id: &str) -> &str {

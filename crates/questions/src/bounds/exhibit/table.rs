@@ -5,6 +5,7 @@ use noisefloor_study::format;
 use noisefloor_study::summary::BoundSummary;
 
 use super::super::analyse::id_of;
+use super::guard::covers;
 use crate::charts::distinct;
 use crate::shown;
 use crate::view::View;
@@ -99,9 +100,17 @@ fn row(view: &View<'_>, p: &Promise<'_>, by_class: bool) -> TableRow {
     cells.push(TableCell::text(format::percent_short(p.alpha)).number(Number::exact(p.alpha)));
     cells.extend(p.found.iter().map(|found| {
         let Some(b) = found else { return TableCell::none() };
-        if by_class { rate(b) } else { shown::judged(rate(b).about(details(b)), view.claim(&id_of(b))) }
+        if by_class { rate(b) } else { whole(view, b) }
     }));
     TableRow::new(cells)
+}
+
+/// A rate over all pixels with its verdict and, for a guard, what its interval covers.
+fn whole(view: &View<'_>, b: &BoundSummary) -> TableCell {
+    let cell = rate(b).about(details(b));
+    let covers = covers(view, b).unwrap_or_default();
+    let cell = TableCell { aside: shown::joined(&[&cell.aside, &covers], "; "), ..cell };
+    shown::judged(cell, view.claim(&id_of(b)))
 }
 
 /// One measured rate.
