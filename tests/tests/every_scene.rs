@@ -1,6 +1,6 @@
 //! Every built-in scene, all the way through.
 
-use noisefloor::harness::{Silent, StudyRun, run};
+use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
 use noisefloor::questions::violations;
 use noisefloor::render::{
     Integrator, PhotonMaps, PhotonSettings, Prepared, Recorded, RenderRequest, Silent as Quiet, render,
@@ -35,6 +35,7 @@ fn every_scene_can_be_studied_by_its_name() {
             again: &[],
             command: String::new(),
             simd: String::new(),
+            laboratory: Laboratory::default(),
             observer: &Silent,
         })
         .unwrap_or_else(|e| panic!("{}: {e}", entry.id));

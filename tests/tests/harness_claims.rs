@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor::harness::{Silent, StudyRun, run};
+use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
 use noisefloor::questions::violations;
 use noisefloor::study::summary::Summary;
 use noisefloor::study::{Study, builtin_studies};
@@ -19,6 +19,7 @@ fn run_study(text: &str) -> (tempfile::TempDir, Summary) {
         again: &[],
         command: String::new(),
         simd: String::new(),
+        laboratory: Laboratory::default(),
         observer: &Silent,
     })
     .unwrap_or_else(|e| panic!("{e}"));

@@ -3,6 +3,7 @@
 mod cache;
 mod common;
 mod estimates;
+mod faults;
 mod findings;
 mod flicker;
 mod frames;
@@ -10,6 +11,7 @@ mod gate;
 mod import;
 mod inputs;
 mod kept;
+mod known_variance;
 mod limits;
 mod looks;
 mod outcomes;

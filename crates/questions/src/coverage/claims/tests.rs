@@ -8,8 +8,13 @@ const LEVELS: [u32; 4] = [4, 8, 16, 32];
 const CONFIDENCES: [f64; 3] = [0.95, 0.99, 0.998];
 const REPLICATES: u64 = 4;
 
-/// The verdict on a cell of normal samples, whose coverage is known.
-fn judged(spp: u32, confidence: f64, seed: u64, intervals: &dyn IntervalFamily) -> Judged {
+/// The verdict on a cell of normal samples, whose coverage is known, by `region`.
+fn judged(
+    spp: u32,
+    (confidence, region): (f64, Region),
+    seed: u64,
+    intervals: &dyn IntervalFamily,
+) -> Judged {
     let law = SampleLaw::Gaussian { sd: 0.3, relative: false };
     let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), law, 24, 18).unwrap();
     let (truth, classes) = (scene.truth(), PixelClasses::from(scene.classes()));
@@ -34,20 +39,26 @@ fn judged(spp: u32, confidence: f64, seed: u64, intervals: &dyn IntervalFamily) 
         effect,
         uncorrected: None,
         scale: Scale::Share,
-        region: Some(Region::coverage(confidence)),
+        region: Some(region),
         common: 0.0,
         trials: Some(trials),
     };
     claim.judged()
 }
 
-fn refuted(seeds: u64, levels: &[u32], intervals: &dyn IntervalFamily) -> (u64, u64) {
+/// How many cells are refuted, and of how many, if coverage should lie in `region` of the confidence.
+fn refuted(
+    seeds: u64,
+    levels: &[u32],
+    intervals: &dyn IntervalFamily,
+    region: fn(f64) -> Region,
+) -> (u64, u64) {
     let (mut refuted, mut cells) = (0, 0);
     for _ in 0..seeds {
         for &spp in levels {
             for confidence in CONFIDENCES {
                 // No two cells share a frame.
-                let found = judged(spp, confidence, cells, intervals);
+                let found = judged(spp, (confidence, region(confidence)), cells, intervals);
                 refuted += u64::from(found.alone == Verdict::Refuted);
                 cells += 1;
             }
@@ -58,15 +69,20 @@ fn refuted(seeds: u64, levels: &[u32], intervals: &dyn IntervalFamily) -> (u64, 
 
 #[test]
 fn cells_of_known_coverage_are_refuted_no_more_often_than_the_rule_says() {
-    let (wrong, cells) = refuted(20, &LEVELS, students_t());
+    let (wrong, cells) = refuted(20, &LEVELS, students_t(), Region::coverage);
     assert_eq!(cells, 240);
-    let (share, mcse) = (wrong as f64 / cells as f64, rate_standard_error(0.05, cells));
-    println!("{wrong} of {cells} cells refuted");
-    assert!(share <= 0.05 + 4.0 * mcse, "{share}");
+    let share = |wrong: u64| wrong as f64 / cells as f64;
+    let limit = 0.05 + 4.0 * rate_standard_error(0.05, cells);
+    assert!(share(wrong) <= limit, "{wrong}");
+    // The intervals behind the verdicts leave out the truth itself in 5 %.
+    let (without, _) =
+        refuted(20, &LEVELS, students_t(), |confidence| Region { low: confidence, high: confidence });
+    println!("{wrong} of {cells} cells refuted, {without} intervals without the truth");
+    assert!(share(without) <= limit && without > wrong, "{without}");
 }
 
 #[test]
 fn cells_whose_intervals_are_too_narrow_are_refuted() {
-    let (right, cells) = refuted(5, &[4], family("normal").unwrap());
+    let (right, cells) = refuted(5, &[4], family("normal").unwrap(), Region::coverage);
     assert_eq!((right, cells), (15, 15));
 }
