@@ -16,8 +16,8 @@ pub(super) struct Finding {
     pub(super) class: String,
     /// Whether relMSE's weights are in it.
     pub(super) relative: bool,
-    /// Signed, mean over pixel-channels.
-    pub(super) bias: Interval,
+    /// Signed, mean over pixel-channels; not of classes.
+    pub(super) bias: Option<Interval>,
     /// Nothing where the reference's noise is unknown; an upper limit where that noise hides it.
     pub(super) squared_bias: Option<Interval>,
     /// Of one replicate.
@@ -66,7 +66,7 @@ fn of_row(scene: &str, spp: u32, row: &RowAnswer) -> Vec<Finding> {
         label: row.label.clone(),
         class: class.to_owned(),
         relative,
-        bias: interval(&split.bias, row.replicates),
+        bias: split.bias.map(|known| interval(&known, row.replicates)),
         squared_bias: split.squared_bias.map(|known| squared(&known, row.replicates)),
         variance: interval(&split.variance, row.replicates),
         share: split.squared_bias.and_then(|bias| share(&bias, &split.variance, row.replicates)),

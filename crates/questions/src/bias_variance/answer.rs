@@ -21,14 +21,17 @@ pub(super) struct RowAnswer {
     pub(super) classes: Vec<(String, Split)>,
 }
 
-/// Bias and variance over the pixel-channels of an image or a class.
+/// Bias and variance over the pixel-channels of an image or a class. Short names and few digits: a recording has many.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Split {
-    /// Mean of √w(D̄ − r), signed.
-    pub(super) bias: Known,
+    /// Mean of √w(D̄ − r), signed; of classes not kept.
+    #[serde(rename = "b", default, skip_serializing_if = "Option::is_none")]
+    pub(super) bias: Option<Known>,
     /// Mean of w·B²; nothing where the reference's noise is unknown.
+    #[serde(rename = "b2")]
     pub(super) squared_bias: Option<Known>,
     /// Mean of w·V.
+    #[serde(rename = "v")]
     pub(super) variance: Known,
 }
 
@@ -38,22 +41,23 @@ pub(super) struct Known(pub(super) f64, pub(super) Option<f64>, pub(super) f64);
 
 impl Known {
     fn of(estimated: &Estimated) -> Self {
-        let error = estimated.replicate_error.map(rounded);
-        Self(rounded(estimated.value), error, rounded(estimated.reference.standard_error))
+        // Errors know no more than their first digits; recordings carry them all.
+        let error = estimated.replicate_error.map(|error| rounded(error, 3));
+        Self(rounded(estimated.value, 6), error, rounded(estimated.reference.standard_error, 3))
     }
 }
 
 impl Split {
     pub(super) fn of(total: &BiasVarianceTotal) -> Self {
         Self {
-            bias: Known::of(&total.bias),
+            bias: Some(Known::of(&total.bias)),
             squared_bias: total.squared_bias.as_ref().map(Known::of),
             variance: Known::of(&total.variance),
         }
     }
 }
 
-/// To seven digits: the rest is noise, and recordings carry it.
-fn rounded(v: f64) -> f64 {
-    format!("{v:.6e}").parse().unwrap_or(v)
+/// To so many significant digits, at least 1.
+fn rounded(v: f64, digits: usize) -> f64 {
+    format!("{v:.*e}", digits - 1).parse().unwrap_or(v)
 }

@@ -73,13 +73,17 @@ fn of_row(
     let total = |split: &BiasVariance, index: usize| split.totals.get(index)?.as_ref().map(Split::of);
     let Some((all, all_relative)) = total(&plain, 0).zip(total(&relative, 0)) else { return Ok(None) };
     let classes = level.classes.names.iter().enumerate();
+    let of_class = |(k, name): (usize, &String)| {
+        let split = total(&relative, 1 + k)?;
+        Some((name.clone(), Split { bias: None, ..split }))
+    };
     let row = RowAnswer {
         label: label.to_owned(),
         replicates: images.len() as u32,
         left_out: plain.left_out,
         plain: all,
         relative: all_relative,
-        classes: classes.filter_map(|(k, name)| Some((name.clone(), total(&relative, 1 + k)?))).collect(),
+        classes: classes.filter_map(of_class).collect(),
     };
     Ok(Some((row, plain)))
 }

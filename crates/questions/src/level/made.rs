@@ -8,6 +8,9 @@ use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticSce
 use super::{LevelCell, LevelFound, LevelFrame, Outputs};
 use crate::cell::{MeasureError, PixelClasses};
 
+/// How an output is made of the input.
+type Filter = fn(&Image) -> Image;
+
 /// A level with everything that a cell of it borrows.
 pub(crate) struct Made {
     pub(crate) study: Study,
@@ -16,8 +19,8 @@ pub(crate) struct Made {
     pub(crate) reference: Reference,
     pub(crate) reference_spp: u64,
     pub(crate) frames: Vec<LevelFrame>,
-    /// Rows beside the input: label, and how an output is made of the input.
-    pub(crate) rows: Vec<(String, fn(&Image) -> Image)>,
+    /// Rows beside the input.
+    pub(crate) rows: Vec<(String, Filter)>,
 }
 
 impl Made {

@@ -75,10 +75,9 @@ fn finding(
     let pairs: Vec<(f64, f64)> =
         rates.iter().filter_map(|(replicate, rate)| Some((*rate, against(*replicate)?))).collect();
     let lost: Vec<f64> = pairs.iter().map(|(own, against)| own - against).collect();
-    let sum = |counts: &[u64]| counts.iter().sum::<u64>();
-    let (above, below) = (sum(&count.truth_above), sum(&count.truth_below));
-    let (constant, missed) = (sum(&count.constant), sum(&count.missed));
-    let all = (sum(&count.total) + constant + missed).max(1) as f64;
+    let (above, below) = (count.truth_above, count.truth_below);
+    let (constant, missed) = (count.constant, count.missed);
+    let all = (count.total.iter().sum::<u64>() + constant + missed).max(1) as f64;
     Some(Finding {
         scene: scene.to_owned(),
         spp,

@@ -15,17 +15,18 @@ pub(super) struct Answer {
     pub(super) counts: Vec<Count>,
 }
 
-/// Pixel-channels of a class at a confidence, one entry per replicate; as in [`LeaveOneOutTally`].
+/// Pixel-channels of a class at a confidence, as in [`LeaveOneOutTally`]: of each replicate those with s > 0, of all together
+/// the others and the sides of the misses.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Count {
     pub(super) confidence: f64,
     pub(super) class: String,
     pub(super) total: Vec<u64>,
     pub(super) covered: Vec<u64>,
-    pub(super) truth_above: Vec<u64>,
-    pub(super) truth_below: Vec<u64>,
-    pub(super) constant: Vec<u64>,
-    pub(super) missed: Vec<u64>,
+    pub(super) truth_above: u64,
+    pub(super) truth_below: u64,
+    pub(super) constant: u64,
+    pub(super) missed: u64,
     /// How the misses of all replicates spread over pixels.
     pub(super) spread: PixelSpread,
 }
@@ -48,7 +49,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
             let each = |part: fn(&LeaveOneOutTally) -> u64| -> Vec<u64> {
                 counted.replicates.iter().map(|tallies| part(&tallies[index])).collect()
             };
-            if each(LeaveOneOutTally::all).iter().all(|all| *all == 0) {
+            let sum = |part: fn(&LeaveOneOutTally) -> u64| each(part).iter().sum();
+            if sum(LeaveOneOutTally::all) == 0u64 {
                 continue;
             }
             counts.push(Count {
@@ -56,10 +58,10 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
                 class: class.to_owned(),
                 total: each(|t| t.total),
                 covered: each(|t| t.covered),
-                truth_above: each(|t| t.truth_above),
-                truth_below: each(|t| t.truth_below),
-                constant: each(|t| t.constant),
-                missed: each(|t| t.missed),
+                truth_above: sum(|t| t.truth_above),
+                truth_below: sum(|t| t.truth_below),
+                constant: sum(|t| t.constant),
+                missed: sum(|t| t.missed),
                 spread: *spread,
             });
         }

@@ -49,7 +49,7 @@ fn row(view: &View<'_>, f: &Finding) -> TableRow {
         f.squared_bias.as_ref().map_or_else(TableCell::none, shown::value),
         shown::value(&f.variance),
         f.share.as_ref().map_or_else(TableCell::none, share),
-        shown::value(&f.bias),
+        f.bias.as_ref().map_or_else(TableCell::none, shown::value),
         TableCell::text(word(f.shown)),
     ])
 }

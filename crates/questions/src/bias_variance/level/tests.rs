@@ -26,7 +26,7 @@ fn a_constant_that_a_row_adds_is_its_bias_with_its_sign() {
     made.rows = vec![("darker".into(), |image| image.map(|v| v - 0.05))];
     let [input, darker] = answer(&made).try_into().unwrap();
     assert_eq!((input.label.as_str(), darker.label.as_str()), ("mc", "darker"));
-    let Known(bias, error, reference) = darker.plain.bias;
+    let Known(bias, error, reference) = darker.plain.bias.unwrap();
     assert_eq!(reference, 0.0, "the truth is exact");
     // Of the mean over 48·48·3 values of 16 samples in 4 replicates.
     let expected = 0.3 / (48.0f64 * 48.0 * 3.0 * 16.0 * 4.0).sqrt();
