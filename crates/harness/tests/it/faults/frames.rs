@@ -9,10 +9,10 @@ use noisefloor_questions::{checks, failed_checks};
 use noisefloor_study::check::CheckKind;
 use noisefloor_study::summary::Summary;
 
-use super::planted::{first_screen, measured, named, silent};
+use super::planted::{SMALL, first_screen, measured, named, silent};
 
 fn through(passing: &dyn Passing) -> Summary {
-    measured(Laboratory { passing: Some(passing), ..Laboratory::default() })
+    measured(SMALL, Laboratory { passing: Some(passing), ..Laboratory::default() })
 }
 
 fn scale_variance(frame: &mut Frame, factor: f32) {

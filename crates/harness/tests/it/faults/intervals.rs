@@ -9,7 +9,7 @@ use noisefloor_stats::{
 use noisefloor_study::check::CheckKind;
 use noisefloor_study::record::Record;
 
-use super::planted::{measured, named, silent};
+use super::planted::{TINY, measured, named, silent};
 
 /// What is wrong with an interval.
 #[derive(Debug)]
@@ -62,7 +62,7 @@ impl IntervalFamily for Wrong {
 }
 
 fn with(intervals: &dyn IntervalFamily) -> noisefloor_study::summary::Summary {
-    measured(Laboratory { intervals, ..Laboratory::default() })
+    measured(TINY, Laboratory { intervals, ..Laboratory::default() })
 }
 
 const SCENE: &str = "normal (instrument)";
@@ -116,7 +116,7 @@ fn h_pixels_without_spread_that_count_as_covered_are_named() {
     let mut questions = QUESTIONS.to_vec();
     let coverage = questions.iter_mut().find(|question| question.id == "coverage").unwrap();
     coverage.measure = missed_is_covered;
-    let summary = measured(Laboratory { questions: &questions, ..Laboratory::default() });
+    let summary = measured(TINY, Laboratory { questions: &questions, ..Laboratory::default() });
     for spp in [4, 16] {
         named(&summary, CheckKind::Rare, "rare (instrument)", spp, 100.0);
     }

@@ -3,16 +3,15 @@
 use noisefloor_denoiser::{Registry, mc};
 use noisefloor_harness::{Laboratory, StudyRun, run};
 use noisefloor_questions::{Check, checks, document, failed_checks};
-use noisefloor_study::Study;
 use noisefloor_study::check::CheckKind;
 use noisefloor_study::exhibit::{Answer, Tone};
 use noisefloor_study::summary::Summary;
 
-use super::estimates::{Sure, boxed};
+use super::boxed::{Sure, boxed};
 use crate::common::{Place, Watch, study};
 
 /// A rendered scene and one of a known law, at the replicates that studies have by default.
-const STUDY: &str = r#"
+pub const SMALL: &str = r#"
 name = "planted"
 spp = [4, 16]
 replicates = 4
@@ -32,19 +31,28 @@ id = "mc"
 id = "boxed"
 "#;
 
-fn small() -> Study {
-    study(STUDY)
+/// Little beside the check of the instrument itself.
+pub const TINY: &str = r#"
+name = "tiny"
+spp = [4, 16]
+replicates = 4
+timing = { warmup = 0, runs = 1 }
+[[scene]]
+id = "steps"
+synthetic = { image = "edges", law = "gaussian", sd = 0.2, width = 24, height = 16, guides = "none" }
+[[method]]
+id = "mc"
+"#;
+
+/// A study measured with a laboratory, by methods without a fault.
+pub fn measured(toml: &str, laboratory: Laboratory<'_>) -> Summary {
+    measured_with(toml, laboratory, &Registry::new([mc(), boxed(Sure::Whole)]))
 }
 
-/// The study measured with a laboratory, by methods without a fault.
-pub fn measured(laboratory: Laboratory<'_>) -> Summary {
-    measured_with(laboratory, &Registry::new([mc(), boxed(Sure::Whole)]))
-}
-
-pub fn measured_with(laboratory: Laboratory<'_>, registry: &Registry) -> Summary {
+pub fn measured_with(toml: &str, laboratory: Laboratory<'_>, registry: &Registry) -> Summary {
     let place = Place::new();
     let run_it = |request: StudyRun<'_>| run(&StudyRun { laboratory, registry, ..request });
-    place.run_with(&small(), &Watch::default(), run_it).unwrap()
+    place.run_with(&study(toml), &Watch::default(), run_it).unwrap()
 }
 
 /// What the first screen says of the instrument.

@@ -7,7 +7,7 @@ use noisefloor_frame::{Frame, Image, Reference};
 use noisefloor_harness::{Laboratory, Passing};
 use noisefloor_study::check::CheckKind;
 
-use super::planted::{measured, named, silent};
+use super::planted::{SMALL, measured, named, silent};
 
 const SCENE: &str = "direct";
 /// Samples of a part of the reference.
@@ -46,9 +46,9 @@ impl Passing for Shared {
 #[test]
 fn f_a_reference_with_samples_of_a_frame_is_named_at_the_level_of_that_frame() {
     let mut shared = Shared::default();
-    measured(Laboratory { passing: Some(&shared), ..Laboratory::default() });
+    measured(SMALL, Laboratory { passing: Some(&shared), ..Laboratory::default() });
     shared.level = Some(16);
-    let summary = measured(Laboratory { passing: Some(&shared), ..Laboratory::default() });
+    let summary = measured(SMALL, Laboratory { passing: Some(&shared), ..Laboratory::default() });
     named(&summary, CheckKind::Dependence, SCENE, 16, 4.0);
     silent(&summary, &[CheckKind::Normal, CheckKind::Rare, CheckKind::Halves, CheckKind::ClosedForm]);
 }
