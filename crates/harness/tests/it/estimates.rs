@@ -2,7 +2,7 @@
 
 use noisefloor_harness::reanalyse;
 use noisefloor_stats::Verdict;
-use noisefloor_study::summary::{EstimateSummary, Source, Summary};
+use noisefloor_study::summary::{ClaimSummary, EstimateSummary, Source, Summary};
 
 use crate::common::{Place, Watch, records, study};
 
@@ -35,6 +35,12 @@ fn judge(label: &str, set: &str) -> String {
 fn found<'a>(summary: &'a Summary, label: &str, spp: u32, class: &str) -> &'a EstimateSummary {
     let mut of_row = summary.estimates.iter();
     of_row.find(|e| e.label == label && e.spp == spp && e.class == class).unwrap()
+}
+
+fn claim<'a>(summary: &'a Summary, label: &str, spp: u32) -> &'a ClaimSummary {
+    let same =
+        |c: &&ClaimSummary| c.id.question == "own_error" && c.id.label == label && c.id.spp == Some(spp);
+    summary.claims.iter().find(same).unwrap()
 }
 
 #[test]
@@ -110,7 +116,8 @@ fn a_negative_estimate_is_compared_by_its_difference() {
     let own = found(&summary, "sure", 4, "all");
     assert!(!own.is_ratio && own.estimated.value < 0.0);
     assert!((own.effect.value + 0.125).abs() < 0.01, "{:?}", own.effect);
-    assert_eq!(own.verdict.name(), "too optimistic");
+    let claim = claim(&summary, "sure", 4);
+    assert_eq!((claim.verdict, claim.region), (Verdict::NotShown, None), "a difference has no region");
 }
 
 #[test]
@@ -122,7 +129,7 @@ fn one_replicate_has_an_interval_from_within_its_image() {
     let expected = ((2.0 + 2.0 / 15.0) / (PIXELS * 3.0)).sqrt();
     let se = own.effect.standard_error.unwrap() / own.effect.value;
     assert!(se > 0.1 * expected && se < 3.0 * expected, "{se} against {expected}");
-    assert_eq!(found(&summary, "honest", 16, "flat").verdict.name(), "undecided");
+    assert_ne!(claim(&summary, "honest", 16).verdict, Verdict::Refuted);
 }
 
 #[test]

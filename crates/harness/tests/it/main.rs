@@ -11,6 +11,7 @@ mod inputs;
 mod kept;
 mod limits;
 mod outcomes;
+mod over_replicates;
 mod paper;
 mod progress;
 mod recorded;
