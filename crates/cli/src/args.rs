@@ -334,7 +334,7 @@ pub struct Export {
 #[command(after_help = "Examples:\n  noisefloor record noisefloor-results/quick reports/quick\n  \
     noisefloor record reports/quick reports/quick            README and plots again\n  \
     noisefloor report reports/quick --out /tmp/quick         summary and page from a recording\n\n\
-    TO gets study.json, context.json and results.jsonl.gz, from which `noisefloor report` makes summary and page; images are \
+    TO gets study.json, context.json, levels.jsonl.gz and results.jsonl.gz, from which `noisefloor report` makes summary and page; images are \
     not kept. In TO/README.md everything between `<!-- noisefloor:table KIND key=value -->` and `<!-- /noisefloor -->` is made \
     anew, and the plots that it shows as `plots/NAME.svg` are written. Kinds: answers, levels, methods, coverage, bounds, \
     slopes, estimates, paper, equal-time, flicker, absent, machine. Keys: metric=ID, show=value|ratio|multiplier, \

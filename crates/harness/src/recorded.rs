@@ -1,15 +1,15 @@
 //! Recorded studies: the numbers of a study without its images, small enough for a repository.
 //!
-//! A recording has `study.json`, `context.json` with everything that the analysis must know beside the records, and
-//! `results.jsonl.gz`. It is analysed like the study itself. Recordings of earlier programs have `results.jsonl` and
+//! A recording has `study.json`, `context.json` with everything that the analysis must know beside the records,
+//! `levels.jsonl.gz` with what was measured over all replicates of levels, and `results.jsonl.gz`. It is analysed like the study itself. Recordings of earlier programs have `results.jsonl` and
 //! `summary.json`; a built-in study's is understood from these.
 
 mod earlier;
+mod levels;
+mod packed;
 
-use std::io::{Read as _, Write as _};
 use std::path::Path;
 
-use flate2::{Compression, GzBuilder, read::MultiGzDecoder};
 use noisefloor_questions::{Kept, flicker, summarise};
 use noisefloor_study::files;
 use serde::Serialize;
@@ -22,9 +22,6 @@ use noisefloor_study::Study;
 use noisefloor_study::context::Context;
 use noisefloor_study::record::Record;
 use noisefloor_study::summary::Summary;
-
-/// Most bytes of records that are unpacked: a file of a few megabytes can hold as many as a disk.
-const MOST_BYTES: u64 = 1 << 30;
 
 /// What a study's folder keeps, that of a run or of a recording.
 pub(crate) struct KeptStudy {
@@ -41,8 +38,10 @@ impl KeptStudy {
         let layout = Layout::new(dir);
         if layout.packed_records().is_file() {
             let study = read_json(&layout.study())?;
-            let context = read_json(&layout.context())?;
-            let records = unpack(&layout.packed_records())?;
+            let mut context = read_json(&layout.context())?;
+            levels::give(&layout.packed_levels(), &mut context)?;
+            let path = layout.packed_records();
+            let records = Records::parse(&packed::read(&path)?).whole_or_error(&path)?;
             return Ok(Some(Self { study, context, records, recorded: true }));
         }
         // What is not there at all is told by who reads it.
@@ -85,7 +84,7 @@ pub fn analysis_of(dir: &Path) -> Result<Summary, HarnessError> {
     Ok(kept.summary(dir))
 }
 
-/// Writes the recording of a study: `study.json`, `context.json` and `results.jsonl.gz`. The same study gives the same
+/// Writes the recording of a study: `study.json`, `context.json`, `levels.jsonl.gz` and `results.jsonl.gz`. The same study gives the same
 /// bytes.
 ///
 /// `dir` is a study's folder, or a recording, also of an earlier program; `to` may be `dir`. What is measured over the
@@ -102,8 +101,9 @@ pub fn record(dir: &Path, to: &Path) -> Result<(), HarnessError> {
     let layout = Layout::new(to);
     std::fs::create_dir_all(to).map_err(HarnessError::io("make folder", to))?;
     write_lines(&layout.study(), &study)?;
+    levels::take(&mut context, &layout.packed_levels())?;
     write_lines(&layout.context(), &context)?;
-    write_whole(&layout.packed_records(), &pack(&records, &layout.packed_records())?)?;
+    packed::write(&layout.packed_records(), &records)?;
     Ok(())
 }
 
@@ -112,31 +112,4 @@ fn write_lines(path: &Path, value: &impl Serialize) -> Result<(), HarnessError> 
     let mut text = serde_json::to_vec(value).map_err(|e| HarnessError::kept(path, e))?;
     text.push(b'\n');
     write_whole(path, &text)
-}
-
-fn pack(records: &[Record], path: &Path) -> Result<Vec<u8>, HarnessError> {
-    // Without a time and a name in the header, so that equal records give equal bytes.
-    let mut packed = GzBuilder::new().write(Vec::new(), Compression::best());
-    for record in records {
-        let line = serde_json::to_vec(record).map_err(|e| HarnessError::kept(path, e))?;
-        let written = packed.write_all(&line).and_then(|()| packed.write_all(b"\n"));
-        written.map_err(HarnessError::io("write", path))?;
-    }
-    packed.finish().map_err(HarnessError::io("write", path))
-}
-
-fn unpack(path: &Path) -> Result<Vec<Record>, HarnessError> {
-    let file = std::fs::File::open(path).map_err(HarnessError::io("read", path))?;
-    let mut bytes = Vec::new();
-    MultiGzDecoder::new(file)
-        .take(MOST_BYTES + 1)
-        .read_to_end(&mut bytes)
-        .map_err(HarnessError::io("unpack", path))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        return Err(HarnessError::kept(
-            path,
-            format!("more than {MOST_BYTES} bytes of records, the most that are read"),
-        ));
-    }
-    Records::parse(&bytes).whole_or_error(path)
 }

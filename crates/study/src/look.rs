@@ -71,8 +71,6 @@ mod tests {
     fn a_number_outgrows_a_look_unless_it_was_planned_before_it() {
         const NONE: [u32; 0] = [];
         let outgrown = |then: Look, now: Look| then.outgrown(&now).into_iter().collect::<Vec<_>>();
-        const NONE: [u32; 0] = [];
-        let outgrown = |then: Look, now: Look| then.outgrown(&now).into_iter().collect::<Vec<_>>();
         assert_eq!(outgrown(look(4, 4), look(8, 8)), [4]);
         assert_eq!(outgrown(look(4, 4), look(4, 4)), NONE);
         assert_eq!(outgrown(look(2, 4), look(4, 4)), NONE, "stopped, looked at, and finished as planned");

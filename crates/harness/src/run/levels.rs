@@ -83,7 +83,7 @@ fn paths(level: &LevelContext) -> impl Iterator<Item = &str> {
 }
 
 fn levels<'a>(runner: &Runner<'a>, records: &Records) -> Vec<Level<'a>> {
-    let plan = runner.plan;
+    let (plan, study) = (runner.plan, runner.request.study);
     let scene = &plan.scenes[runner.place];
     let cells = plan.cells.iter().filter(|cell| cell.scene == runner.place);
     let of_scene: BTreeMap<&str, &CellPlan> = cells.map(|cell| (cell.key.as_str(), cell)).collect();
@@ -108,8 +108,11 @@ fn levels<'a>(runner: &Runner<'a>, records: &Records) -> Vec<Level<'a>> {
             "reference": scene.reference_key,
             "frames": frames.iter().map(|frame| &frame.key).collect::<Vec<_>>(),
             "cells": cells,
-            "coverage": runner.request.study.coverage,
-            "membership": runner.request.study.membership,
+            // A row may get another name and keep its cells.
+            "rows": outputs.keys().collect::<Vec<_>>(),
+            "coverage": study.coverage,
+            "membership": study.membership,
+            "viewer": study.viewer_spp.is_empty() || study.viewer_spp.contains(&spp),
         }));
         Level { spp, key, frames, outputs }
     };

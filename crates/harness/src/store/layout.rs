@@ -41,6 +41,11 @@ impl Layout {
         self.root.join("results.jsonl.gz")
     }
 
+    /// What was measured over all replicates of levels, in a recorded study, compressed.
+    pub(crate) fn packed_levels(&self) -> PathBuf {
+        self.root.join("levels.jsonl.gz")
+    }
+
     /// The study as it was resolved.
     pub(crate) fn study(&self) -> PathBuf {
         self.root.join("study.json")

@@ -15,6 +15,7 @@ mod known_variance;
 mod limits;
 mod looks;
 mod outcomes;
+mod over_replicates;
 mod paper;
 mod progress;
 mod recorded;

@@ -20,7 +20,7 @@ fn a_recording_has_the_numbers_of_its_study_and_equal_bytes_each_time() {
     for to in &to {
         record_study(&place.out(), to).unwrap();
     }
-    let names = ["context.json", "results.jsonl.gz", "study.json"];
+    let names = ["context.json", "levels.jsonl.gz", "results.jsonl.gz", "study.json"];
     let mut found: Vec<_> = std::fs::read_dir(&to[0]).unwrap().map(|e| e.unwrap().file_name()).collect();
     found.sort();
     assert_eq!(found, names);
@@ -38,6 +38,8 @@ fn a_recording_has_the_numbers_of_its_study_and_equal_bytes_each_time() {
         (&summary.cells, &summary.coverage, &summary.comparisons, &summary.slopes)
     );
     assert_eq!(again.progress, summary.progress);
+    assert!(!summary.answers.is_empty());
+    assert_eq!((&again.answers, &again.claims), (&summary.answers, &summary.claims));
     // A recording can be recorded.
     let third = place.root.path().join("c");
     record_study(&to[0], &third).unwrap();
