@@ -76,7 +76,7 @@ fn a_guard_by_skewness_asks_the_study_for_the_third_moment() {
         study(&format!(
             r#"
             name = "skewed"
-            spp = 8
+            spp = [8]
             replicates = 2
             {statistics}
             timing = {{ warmup = 0, runs = 1 }}
