@@ -28,11 +28,13 @@ pub(super) fn self_check(
         request.registry.factories().iter().filter_map(card).map(|card| card.id).collect();
     let Ok(study) = self_check_study(request.study, &unbiased) else { return Ok(Vec::new()) };
     let out = request.out_dir.join(FOLDER);
+    // Beside the records: whoever doubts a check has its frames.
+    let frames = out.join("frames");
     let summary = run(&StudyRun {
         study: &study,
         registry: request.registry,
         out_dir: &out,
-        cache_dir: request.cache_dir,
+        cache_dir: &frames,
         size: Some(SELF_CHECK_SIZE),
         again: &[],
         command: request.command.clone(),
