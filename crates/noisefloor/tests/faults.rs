@@ -1,7 +1,7 @@
 //! What a script sees of a study whose instrument has a fault: the exit code of `noisefloor report`.
 
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{self, Command};
 
 use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
 use noisefloor::questions::{Check, checks, failed_checks};
@@ -41,7 +41,7 @@ fn measured(folder: &Path, registry: &Registry, laboratory: Laboratory<'_>) -> S
     .unwrap()
 }
 
-fn report(folder: &Path) -> Output {
+fn report(folder: &Path) -> process::Output {
     let mut command = Command::new(env!("CARGO_BIN_EXE_noisefloor"));
     command.args(["report", "out"]).env("XDG_CACHE_HOME", folder.join("cache")).current_dir(folder);
     command.output().unwrap()
@@ -61,7 +61,7 @@ fn a_report_of_a_faulty_instrument_is_written_and_ends_with_the_code_of_a_fault(
     for text in &failed {
         assert!(errors.contains(text.as_str()), "{text:?} is not in {errors}");
     }
-    let page = std::fs::read_to_string(folder.path().join("out/index.html")).unwrap();
+    let page = std::fs::read_to_string(folder.path().join("out/report/index.html")).unwrap();
     assert!(page.contains("found a fault") && page.contains("I1 (coverage of normal samples)"));
 }
 
@@ -72,7 +72,7 @@ fn a_report_of_a_sound_instrument_ends_well_and_its_own_methods_know_their_error
     assert_eq!(failed_checks(&summary), Vec::<String>::new());
     for id in ["rdfc-first", "rdfc-second", "rdfc-third"] {
         let found = known_variance(&summary, id).record.found.unwrap();
-        assert!((0.8..1.25).contains(&found.value), "{id}: {found:?}");
+        assert!(found.p > 0.05, "{id}: {found:?}");
     }
     let output = report(folder.path());
     assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));

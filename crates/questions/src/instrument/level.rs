@@ -168,3 +168,6 @@ fn closed_form(level: &LevelCell<'_>) -> Option<CheckRecord> {
     let what = "mean of the image against its formula";
     Some(CheckRecord { found: Some(found), ..record(level, CheckKind::ClosedForm, what) })
 }
+
+#[cfg(test)]
+mod tests;
