@@ -1,8 +1,9 @@
 //! Recorded studies: the numbers of a study without its images, small enough for a repository.
 //!
 //! A recording has `study.json`, `context.json` with everything that the analysis must know beside the records,
-//! `levels.jsonl.gz` with what was measured over all replicates of levels, and `results.jsonl.gz`. It is analysed like the study itself. Recordings of earlier programs have `results.jsonl` and
-//! `summary.json`; a built-in study's is understood from these.
+//! `levels.jsonl.gz` with what was measured over all replicates of levels, and `results.jsonl.gz`. It is analysed like the
+//! study itself. Recordings of earlier programs have `results.jsonl` and `summary.json`; a built-in study's is understood
+//! from these.
 
 mod earlier;
 mod levels;

@@ -340,6 +340,6 @@ fn a_study_is_recorded_and_opens_again_without_its_images() {
     assert!(page.contains("Made from a recorded study") && !page.contains("Not readable"));
     let kept: Vec<_> =
         std::fs::read_dir(at.join("recorded")).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(kept.len(), 4, "{kept:?}");
+    assert_eq!(kept.len(), 5, "{kept:?}");
     assert!(refused(at, &["report", "again"]).contains("study.json"), "a report is no study");
 }

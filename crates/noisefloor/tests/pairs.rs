@@ -75,7 +75,9 @@ fn frames_of_the_usual_seed_are_independent_and_of_one_seed_are_refused() {
         write_frame(&path, &frame).unwrap();
     }
     let output = noisefloor(at, &run);
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(7), "a fault of the instrument: {told}");
+    assert!(told.contains("I5 (independence) on shared at 64 spp"), "{told}");
     let summary: Value =
         serde_json::from_slice(&std::fs::read(at.join("out/summary.json")).unwrap()).unwrap();
     assert_eq!(summary["findings"][0]["kind"], "dependent", "{}", summary["findings"]);

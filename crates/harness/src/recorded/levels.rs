@@ -15,7 +15,7 @@ struct Line {
     levels: Vec<LevelContext>,
 }
 
-/// Moves the levels of all scenes to a file, which replaces what an earlier recording left there.
+/// Moves the levels of all scenes to a file, which replaces what an earlier recording left there; none if there are none.
 pub(super) fn take(context: &mut Context, path: &Path) -> Result<(), HarnessError> {
     let measured = context.scenes.iter_mut().filter(|scene| !scene.levels.is_empty());
     let line = |scene: &mut SceneContext| Line {
@@ -23,6 +23,15 @@ pub(super) fn take(context: &mut Context, path: &Path) -> Result<(), HarnessErro
         levels: std::mem::take(&mut scene.levels),
     };
     let lines: Vec<Line> = measured.map(line).collect();
+    if lines.is_empty() {
+        // Of an earlier recording in the same place.
+        return match std::fs::remove_file(path) {
+            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                Err(HarnessError::io("remove", path)(error))
+            }
+            _ => Ok(()),
+        };
+    }
     packed::write(path, &lines)
 }
 
