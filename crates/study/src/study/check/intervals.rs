@@ -31,8 +31,8 @@ pub(super) fn check_intervals(study: &Study, lines: &Lines<'_>) -> Result<(), St
         if study.intervals[..k].contains(id) {
             return wrong(quoted(id), "each family once".into());
         }
-        let needed = family.needs().iter().flat_map(|need| statistics(*need));
-        for statistic in needed.filter(|statistic| !recorded.contains(statistic)) {
+        let mut needed = family.needs().iter().flat_map(|need| statistics(*need));
+        if let Some(statistic) = needed.find(|statistic| !recorded.contains(statistic)) {
             let allowed = format!("with `statistics = [\"{statistic}\", …]`, which it is made of");
             return wrong(quoted(id), allowed);
         }
