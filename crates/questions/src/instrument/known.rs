@@ -71,7 +71,6 @@ pub fn self_check_study(of: &Study, unbiased: &[String]) -> Result<Study, Synthe
     study.question = "Do intervals, variances and estimates show what is known?".into();
     study.replicates = Replicates::uniform(REPLICATES);
     // Of the furnace alone, whose truth is its formula.
-    study.reference.spp = MOST_SPP;
     study.reference.spp = REFERENCE_SPP;
     (study.width, study.height) = SELF_CHECK_SIZE;
     study.seed = of.seed;
