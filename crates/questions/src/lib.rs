@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod answers;
 mod bias_variance;
 mod bounds;
 mod breakage;

@@ -4,6 +4,7 @@
 //! whoever measures intervals asks every one of them and knows none.
 
 mod asymmetric;
+mod by_t;
 mod critical;
 mod each;
 mod family;
@@ -25,21 +26,21 @@ pub use planes::{IntervalPlanes, SamplePlanes};
 
 /// Every family, Student's t first.
 pub static FAMILIES: &[&dyn IntervalFamily] = &[
-    &student::StudentT,
+    &student::STUDENT_T,
     &normal::NormalInterval,
     &johnson::Johnson,
     &hall::Hall,
     &pooled::PooledT,
-    &asymmetric::AsymmetricT,
+    &asymmetric::ASYMMETRIC_T,
     &rare_event::RareEventT,
-    &one_sided::LowerT,
-    &one_sided::UpperT,
+    &one_sided::LOWER_T,
+    &one_sided::UPPER_T,
 ];
 
 /// Student's t: the intervals of moon2013flash.
 #[must_use]
 pub fn students_t() -> &'static dyn IntervalFamily {
-    &student::StudentT
+    &student::STUDENT_T
 }
 
 /// The family of this id.

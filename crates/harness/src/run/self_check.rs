@@ -2,6 +2,7 @@
 
 use noisefloor_questions::{SELF_CHECK, SELF_CHECK_SIZE, self_check_study, self_checks};
 use noisefloor_study::check::CheckRecord;
+use noisefloor_study::{Place, StudyError};
 use serde_json::Map;
 
 use crate::error::HarnessError;
@@ -26,7 +27,13 @@ pub(super) fn self_check(
     };
     let unbiased: Vec<String> =
         request.registry.factories().iter().filter_map(card).map(|card| card.id).collect();
-    let Ok(study) = self_check_study(request.study, &unbiased) else { return Ok(Vec::new()) };
+    // Never a run without its check: what cannot be made is an error.
+    let study = self_check_study(request.study, &unbiased).map_err(|error| StudyError::Field {
+        place: Place::of_study(SELF_CHECK, None),
+        field: "scenes".into(),
+        value: "those of the check of the instrument".into(),
+        allowed: error.to_string(),
+    })?;
     let out = request.out_dir.join(FOLDER);
     // Beside the records: whoever doubts a check has its frames.
     let frames = out.join("frames");

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ID;
 use super::answer::{Answer, Known, RowAnswer, Split};
+use crate::answers;
 use crate::cell::ALL;
 use crate::records::{Index, LEVEL, told};
 
@@ -45,15 +46,14 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let mut findings: Vec<Finding> = Vec::new();
     for scene in index.scenes() {
         for level in &scene.levels {
-            let answer = level.answers.get(ID).cloned();
-            let answer = answer.and_then(|value| serde_json::from_value::<Answer>(value).ok());
+            let answer = answers::read::<Answer>(&level.answers, ID);
             for row in answer.iter().flatten() {
                 findings.extend(of_row(&scene.id, level.spp, row));
             }
         }
     }
-    if let (false, Ok(value)) = (findings.is_empty(), serde_json::to_value(findings)) {
-        summary.answers.insert(ID.into(), value);
+    if !findings.is_empty() {
+        answers::keep(&mut summary.answers, ID, &findings);
     }
 }
 

@@ -7,6 +7,7 @@ use noisefloor_study::exhibit::{Exhibit, Part};
 
 use super::ID;
 use super::analyse::Finding;
+use crate::answers;
 use crate::view::View;
 
 const NOTE: &str = "The squared error of a row, split into the square of its bias, which no number of replicates takes away, and the \
@@ -14,9 +15,7 @@ const NOTE: &str = "The squared error of a row, split into the square of its bia
     and may come out negative; where it is below its uncertainty only an upper limit is told.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    // Of a newer program, which may tell it in another form.
-    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found: Vec<Finding> = answers::read(&view.summary.answers, ID).unwrap_or_default();
     let (mut tables, mut charts) = (Vec::new(), Vec::new());
     for (scene, name) in view.named_scenes() {
         let here: Vec<&Finding> = found.iter().filter(|f| f.scene == scene.id).collect();

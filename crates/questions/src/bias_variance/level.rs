@@ -9,6 +9,7 @@ use noisefloor_stats::{
 use super::ID;
 use super::answer::{Answer, RowAnswer, Split};
 use super::maps;
+use crate::answers;
 use crate::cell::MeasureError;
 use crate::level::{LevelCell, LevelFound};
 
@@ -35,8 +36,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
     if shown {
         found.maps.extend(maps::misses(level)?);
     }
-    if let (false, Ok(value)) = (answer.is_empty(), serde_json::to_value(answer)) {
-        found.answers.insert(ID.into(), value);
+    if !answer.is_empty() {
+        answers::keep(&mut found.answers, ID, &answer);
     }
     Ok(())
 }

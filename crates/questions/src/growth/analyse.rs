@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ID;
 use super::measure::Answer;
+use crate::answers;
 use crate::records::{Index, LEVEL, told};
 
 /// Means over the replicates of a row.
@@ -25,8 +26,8 @@ pub(super) struct Finding {
 
 pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let found = findings(index);
-    if let (false, Ok(value)) = (found.is_empty(), serde_json::to_value(found)) {
-        summary.answers.insert(ID.into(), value);
+    if !found.is_empty() {
+        answers::keep(&mut summary.answers, ID, &found);
     }
 }
 
@@ -45,7 +46,7 @@ fn findings(index: &Index<'_>) -> Vec<Finding> {
 }
 
 fn finding(scene: &str, spp: u32, label: &str, records: &[&Record]) -> Option<Finding> {
-    let answer = |record: &&Record| serde_json::from_value::<Answer>(record.answers.get(ID)?.clone()).ok();
+    let answer = |record: &&Record| answers::read::<Answer>(&record.answers, ID);
     let answers: Vec<Answer> = records.iter().filter_map(answer).filter(|a| a.pixels > 0).collect();
     let mean = |of: &dyn Fn(&Answer) -> f64| {
         let values: Vec<f64> = answers.iter().map(of).collect();

@@ -6,6 +6,7 @@ use noisefloor_study::summary::Interval;
 
 use super::ID;
 use super::analyse::Finding;
+use crate::answers;
 use crate::view::View;
 
 const NOTE: &str = "Pixels whose squared error is larger after filtering than before, as shares of the pixels; what growth \
@@ -13,9 +14,7 @@ const NOTE: &str = "Pixels whose squared error is larger after filtering than be
     noise happened to be small: what growth adds is the harm.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    // Of a newer program, which may tell it in another form.
-    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found: Vec<Finding> = answers::read(&view.summary.answers, ID).unwrap_or_default();
     let mut parts = vec![Part::Note(NOTE.into())];
     for (scene, name) in view.summary.scenes.iter().zip(view.file_names()) {
         let rows: Vec<TableRow> =

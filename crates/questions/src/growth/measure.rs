@@ -6,6 +6,7 @@ use noisefloor_study::record::Record;
 use serde::{Deserialize, Serialize};
 
 use super::ID;
+use crate::answers;
 use crate::cell::{Cell, MeasureError};
 
 /// Standard deviations of the reference's noise beyond which growth is sure.
@@ -32,8 +33,8 @@ pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), Measur
         return Ok(());
     }
     let found = growth(&cell.frame.color.mean, cell.image, cell.reference);
-    if let Some(answer) = found.and_then(|found| serde_json::to_value(found).ok()) {
-        record.answers.insert(ID.into(), answer);
+    if let Some(found) = found {
+        answers::keep(&mut record.answers, ID, &found);
     }
     Ok(())
 }

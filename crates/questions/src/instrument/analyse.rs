@@ -5,6 +5,7 @@ use noisefloor_study::summary::Summary;
 use serde::{Deserialize, Serialize};
 
 use super::id::ID;
+use crate::answers;
 use crate::records::Index;
 
 /// Rate of false alarms of a report without a fault, all of its checks together.
@@ -25,15 +26,13 @@ pub struct Check {
 pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let mut records: Vec<CheckRecord> = index.context.self_check.clone();
     for level in index.scenes().iter().flat_map(|scene| &scene.levels) {
-        let answer = level.answers.get(ID).cloned();
-        records.extend(
-            answer.and_then(|v| serde_json::from_value::<Vec<CheckRecord>>(v).ok()).into_iter().flatten(),
-        );
+        let answer: Option<Vec<CheckRecord>> = answers::read(&level.answers, ID);
+        records.extend(answer.into_iter().flatten());
     }
     records.extend(identical(summary));
     let checks = judged(records);
-    if let (false, Ok(value)) = (checks.is_empty(), serde_json::to_value(checks)) {
-        summary.answers.insert(ID.into(), value);
+    if !checks.is_empty() {
+        answers::keep(&mut summary.answers, ID, &checks);
     }
 }
 
@@ -68,8 +67,7 @@ fn identical(summary: &Summary) -> Vec<CheckRecord> {
 /// The checks of a report.
 #[must_use]
 pub fn checks(summary: &Summary) -> Vec<Check> {
-    let found = summary.answers.get(ID).cloned();
-    found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
+    answers::read(&summary.answers, ID).unwrap_or_default()
 }
 
 /// Checks that found a fault, in sentences; a run with one has failed.

@@ -73,28 +73,28 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 
 /// One line per kind: how many, the largest deviation, how many found a fault.
 fn overview(all: &[Check]) -> Table {
-    let rows = CheckKind::ALL.into_iter().filter_map(|kind| {
+    let rows = CheckKind::ALL.into_iter().map(|kind| {
         let of_kind = || all.iter().filter(move |check| check.record.kind == kind);
         let count = of_kind().count();
         let tested = of_kind().filter(|check| check.adjusted.is_some()).count();
         let least = of_kind().filter_map(|check| check.adjusted).reduce(f64::min);
         let failed = of_kind().filter(|check| check.failed).count();
         let word = match (failed, tested) {
+            // Such as half buffers, which frames have only where a row needs them.
+            (0, 0) if count == 0 => TableCell::text("not made: nothing here to make it of"),
             (0, 0) => TableCell::text("could not tell"),
             (0, _) => TableCell::text("no fault found"),
             _ => TableCell::text(format!("{failed} found a fault")).tone(Tone::Bad),
         };
-        (count > 0).then(|| {
-            TableRow::new(vec![
-                TableCell::text(format!("{} {}", kind.id(), kind.name())),
-                TableCell::count(count as u64),
-                TableCell::count((count - tested) as u64),
-                least.map_or_else(TableCell::none, |p| {
-                    TableCell::text(shown::probability(p)).number(Number::exact(p))
-                }),
-                word,
-            ])
-        })
+        TableRow::new(vec![
+            TableCell::text(format!("{} {}", kind.id(), kind.name())),
+            TableCell::count(count as u64),
+            TableCell::count((count - tested) as u64),
+            least.map_or_else(TableCell::none, |p| {
+                TableCell::text(shown::probability(p)).number(Number::exact(p))
+            }),
+            word,
+        ])
     });
     Table {
         id: "instrument-kinds".into(),

@@ -10,6 +10,7 @@ use noisefloor_stats::{Observed, SampleCounts, Truth, normal_two_sided_p};
 use noisefloor_study::check::{CheckFound, CheckKind, CheckRecord};
 
 use super::id::ID;
+use crate::answers;
 use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound, LevelFrame};
 
@@ -20,8 +21,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
     checks.extend(bright(level, &measures)?);
     checks.extend(dependent(level)?);
     checks.extend(closed_form(level));
-    if let (false, Ok(value)) = (checks.is_empty(), serde_json::to_value(checks)) {
-        found.answers.insert(ID.into(), value);
+    if !checks.is_empty() {
+        answers::keep(&mut found.answers, ID, &checks);
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use noisefloor_study::summary::{ClaimId, Interval, Scale, Source, Summary};
 use serde::{Deserialize, Serialize};
 
 use super::measure::{ID, OfFamily};
+use crate::answers;
 use crate::cell::ALL;
 use crate::claims::{Claim, push};
 use crate::coverage::{Part, bracketed};
@@ -41,8 +42,8 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
             of_level(scene, spp, label, index.records(scene, spp, label), (&mut out, summary));
         }
     }
-    if let (false, Ok(value)) = (out.is_empty(), serde_json::to_value(out)) {
-        summary.answers.insert(ID.into(), value);
+    if !out.is_empty() {
+        answers::keep(&mut summary.answers, ID, &out);
     }
 }
 
@@ -53,8 +54,7 @@ fn of_level(
     records: &[&Record],
     (out, summary): (&mut Vec<Finding>, &mut Summary),
 ) {
-    let read =
-        |record: &&Record| serde_json::from_value::<Vec<OfFamily>>(record.answers.get(ID)?.clone()).ok();
+    let read = |record: &&Record| answers::read::<Vec<OfFamily>>(&record.answers, ID);
     let all: Vec<OfFamily> = records.iter().filter_map(read).flatten().collect();
     let mut kinds: Vec<(&str, f64, &str)> = Vec::new();
     for (of, count) in all.iter().flat_map(|of| of.counts.iter().map(move |count| (of, count))) {

@@ -10,6 +10,7 @@ use noisefloor_study::summary::{Interval, SceneSummary};
 
 use super::analyse::{Finding, id_of};
 use super::measure::ID;
+use crate::answers;
 use crate::cell::ALL;
 use crate::charts::{distinct, distinct_values, levels_axis};
 use crate::shown;
@@ -47,8 +48,7 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
 }
 
 fn findings(view: &View<'_>) -> Vec<Finding> {
-    let found = view.summary.answers.get(ID).cloned();
-    found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default()
+    answers::read(&view.summary.answers, ID).unwrap_or_default()
 }
 
 /// What a family covers at a level among pixels with s > 0 or missed events, if that was measured.

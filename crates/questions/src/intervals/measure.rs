@@ -5,6 +5,7 @@ use noisefloor_study::BASELINE;
 use noisefloor_study::record::{CoverageCount, Record};
 use serde::{Deserialize, Serialize};
 
+use crate::answers;
 use crate::cell::{Cell, Measure, MeasureError};
 
 /// Name of its answers on disk.
@@ -32,8 +33,8 @@ pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), Measur
     for family in cell.study.interval_families() {
         out.extend(of_family(cell.measure, family, &observed, &cell.study.coverage)?);
     }
-    if let (false, Ok(value)) = (out.is_empty(), serde_json::to_value(out)) {
-        record.answers.insert(ID.into(), value);
+    if !out.is_empty() {
+        answers::keep(&mut record.answers, ID, &out);
     }
     Ok(())
 }

@@ -5,6 +5,7 @@ use noisefloor_study::summary::{ClaimId, Interval, Scale, Summary};
 use serde::{Deserialize, Serialize};
 
 use super::level::{ID, Pairs, name};
+use crate::answers;
 use crate::cell::ALL;
 use crate::claims::{Claim, push};
 use crate::records::{Index, rate};
@@ -33,8 +34,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let mut out = Vec::new();
     for scene in index.scenes() {
         for level in &scene.levels {
-            let answer = level.answers.get(ID).cloned();
-            let pairs: Vec<Pairs> = answer.and_then(|v| serde_json::from_value(v).ok()).unwrap_or_default();
+            let pairs: Vec<Pairs> = answers::read(&level.answers, ID).unwrap_or_default();
             for pair in &pairs {
                 out.extend(finding(scene, level.spp, pair));
             }
@@ -43,8 +43,8 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     out.iter()
         .filter(|found| found.class == ALL && found.shift == 0.0)
         .for_each(|found| claim(label, found, summary));
-    if let (false, Ok(value)) = (out.is_empty(), serde_json::to_value(out)) {
-        summary.answers.insert(ID.into(), value);
+    if !out.is_empty() {
+        answers::keep(&mut summary.answers, ID, &out);
     }
 }
 

@@ -5,6 +5,7 @@ use noisefloor_study::format;
 
 use super::analyse::{Finding, id_of};
 use super::level::ID;
+use crate::answers;
 use crate::cell::ALL;
 use crate::shown;
 use crate::view::View;
@@ -15,8 +16,7 @@ const NOTE: &str = "How often a pixel is told apart from the same pixel of anoth
     if one of its channels is.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found: Vec<Finding> = answers::read(&view.summary.answers, ID).unwrap_or_default();
     if found.is_empty() {
         return Vec::new();
     }

@@ -3,6 +3,7 @@
 use noisefloor_stats::{Level, MembershipTest, RejectionTally, rejections};
 use serde::{Deserialize, Serialize};
 
+use crate::answers;
 use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 
@@ -58,8 +59,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
             }
         }
     }
-    if let (false, Ok(value)) = (out.is_empty(), serde_json::to_value(out)) {
-        found.answers.insert(ID.into(), value);
+    if !out.is_empty() {
+        answers::keep(&mut found.answers, ID, &out);
     }
     Ok(())
 }

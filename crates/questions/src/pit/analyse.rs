@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ID;
 use super::answer::{Answer, POINTS};
+use crate::answers;
 use crate::claims::{Claim, push};
 use crate::records::{Index, LEVEL, told};
 
@@ -61,8 +62,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let mut bands: BTreeMap<u64, Band> = BTreeMap::new();
     for scene in index.scenes() {
         for level in &scene.levels {
-            let answer = level.answers.get(ID).cloned();
-            let answer = answer.and_then(|value| serde_json::from_value::<Answer>(value).ok());
+            let answer = answers::read::<Answer>(&level.answers, ID);
             let Some(finding) = answer.and_then(|answer| finding(&scene.id, level.spp, answer)) else {
                 continue;
             };
@@ -76,8 +76,8 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
         }
     }
     found.bands = bands.into_values().collect();
-    if let (false, Ok(value)) = (found.levels.is_empty(), serde_json::to_value(found)) {
-        summary.answers.insert(ID.into(), value);
+    if !found.levels.is_empty() {
+        answers::keep(&mut summary.answers, ID, &found);
     }
 }
 

@@ -7,6 +7,7 @@ use noisefloor_study::{BASELINE, format};
 
 use super::ID;
 use super::analyse::{Finding, Findings, id_of};
+use crate::answers;
 use crate::shown;
 use crate::view::View;
 
@@ -17,9 +18,7 @@ const NOTE: &str = "At which of its own quantiles u the t-interval of a pixel ha
     light that most samples missed.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    // Of a newer program, which may tell it in another form.
-    let found: Findings = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found: Findings = answers::read(&view.summary.answers, ID).unwrap_or_default();
     let (mut tables, mut charts) = (Vec::new(), Vec::new());
     for (scene, name) in view.named_scenes() {
         let here: Vec<&Finding> = found.levels.iter().filter(|f| f.scene == scene.id).collect();

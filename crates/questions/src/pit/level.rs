@@ -5,6 +5,7 @@ use noisefloor_stats::{PitError, ecdf, pit};
 
 use super::ID;
 use super::answer::{Answer, POINTS};
+use crate::answers;
 use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 
@@ -54,8 +55,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
     let count = answer.replicates.len() as f64;
     // To five digits, far below what a thousand values tell; without a replicate nothing is kept.
     answer.ecdf = sums.iter().map(|sum| (sum / count * 1e5).round() / 1e5).collect();
-    if let (true, Ok(value)) = (count > 0.0, serde_json::to_value(answer)) {
-        found.answers.insert(ID.into(), value);
+    if count > 0.0 {
+        answers::keep(&mut found.answers, ID, &answer);
     }
     Ok(())
 }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ID;
 use super::level::{Answer, Count};
+use crate::answers;
 use crate::cell::ALL;
 use crate::claims::{Claim, push};
 use crate::records::{Index, LEVEL, told};
@@ -37,8 +38,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
     let mut findings = Vec::new();
     for scene in index.scenes() {
         for level in &scene.levels {
-            let answer = level.answers.get(ID).cloned();
-            let answer = answer.and_then(|value| serde_json::from_value::<Answer>(value).ok());
+            let answer = answers::read::<Answer>(&level.answers, ID);
             let Some(answer) = answer else { continue };
             let records = index.records(scene, level.spp, label);
             for count in &answer.counts {
@@ -52,8 +52,8 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
             }
         }
     }
-    if let (false, Ok(value)) = (findings.is_empty(), serde_json::to_value(findings)) {
-        summary.answers.insert(ID.into(), value);
+    if !findings.is_empty() {
+        answers::keep(&mut summary.answers, ID, &findings);
     }
 }
 

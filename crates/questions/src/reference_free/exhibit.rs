@@ -5,6 +5,7 @@ use noisefloor_study::{BASELINE, format};
 
 use super::ID;
 use super::analyse::{Finding, id_of};
+use crate::answers;
 use crate::cell::ALL;
 use crate::shown;
 use crate::view::View;
@@ -14,9 +15,7 @@ const NOTE: &str = "Each replicate's intervals, widened for it, against the mean
     all replicates share, the reference's noise, or a dependence of both. Intervals that fail in both have a wrong width.";
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
-    let found = view.summary.answers.get(ID).cloned();
-    // Of a newer program, which may tell it in another form.
-    let found: Vec<Finding> = found.and_then(|value| serde_json::from_value(value).ok()).unwrap_or_default();
+    let found: Vec<Finding> = answers::read(&view.summary.answers, ID).unwrap_or_default();
     let mut parts = vec![Part::Note(NOTE.into())];
     for (scene, name) in view.named_scenes() {
         let here = || found.iter().filter(|f| f.scene == scene.id);

@@ -4,6 +4,7 @@ use noisefloor_stats::{LeaveOneOutError, LeaveOneOutTally, Level, Observed, Pixe
 use serde::{Deserialize, Serialize};
 
 use super::ID;
+use crate::answers;
 use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound};
 
@@ -66,8 +67,8 @@ pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(
             });
         }
     }
-    if let (false, Ok(value)) = (counts.is_empty(), serde_json::to_value(Answer { replicates, counts })) {
-        found.answers.insert(ID.into(), value);
+    if !counts.is_empty() {
+        answers::keep(&mut found.answers, ID, &Answer { replicates, counts });
     }
     Ok(())
 }
