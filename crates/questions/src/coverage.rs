@@ -8,6 +8,7 @@ mod readme;
 
 pub(crate) use analyse::mark;
 pub(crate) use claims::{Part, bracketed};
+pub(crate) use measure::counted;
 
 use crate::question::Question;
 

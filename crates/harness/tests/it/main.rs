@@ -1,5 +1,6 @@
 //! The harness from outside, with fake methods and tiny studies. One binary, so that it is linked once.
 
+mod asked_for;
 mod cache;
 mod common;
 mod estimates;

@@ -32,21 +32,27 @@ impl Measure<'_> {
             for (index, (class, tally)) in
                 self.names().zip(tallies).enumerate().filter(|(_, (_, t))| t.all() > 0)
             {
-                out.push(CoverageCount {
-                    confidence: level.confidence(),
-                    class: class.to_owned(),
-                    total: tally.total,
-                    covered: tally.covered,
-                    covered_uncorrected: tally.covered_uncorrected,
-                    truth_above: tally.truth_above,
-                    truth_below: tally.truth_below,
-                    constant: tally.constant,
-                    missed: tally.missed,
-                    within_se: self
-                        .within(index, count, |t: &CoverageTally| (t.covered + t.constant, t.all())),
-                });
+                let within_se =
+                    self.within(index, count, |t: &CoverageTally| (t.covered + t.constant, t.all()));
+                out.push(CoverageCount { within_se, ..counted(level, class, &tally) });
             }
         }
         Ok(out)
+    }
+}
+
+/// A tally in the form of a record, without an error within the image.
+pub(crate) fn counted(level: Level, class: &str, tally: &CoverageTally) -> CoverageCount {
+    CoverageCount {
+        confidence: level.confidence(),
+        class: class.to_owned(),
+        total: tally.total,
+        covered: tally.covered,
+        covered_uncorrected: tally.covered_uncorrected,
+        truth_above: tally.truth_above,
+        truth_below: tally.truth_below,
+        constant: tally.constant,
+        missed: tally.missed,
+        within_se: None,
     }
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::answers;
 use crate::cell::{Cell, Measure, MeasureError};
+use crate::coverage::counted;
 
 /// Name of its answers on disk.
 pub(super) const ID: &str = "intervals";
@@ -52,18 +53,7 @@ fn of_family(
         let Some(intervals) = family.intervals(&planes, level)? else { return Ok(None) };
         let tallies = coverage_of(&intervals, observed, &measure.truth, level, Some(measure.groups()))?;
         for (class, tally) in measure.names().zip(tallies).filter(|(_, tally)| tally.all() > 0) {
-            out.counts.push(CoverageCount {
-                confidence: level.confidence(),
-                class: class.to_owned(),
-                total: tally.total,
-                covered: tally.covered,
-                covered_uncorrected: tally.covered_uncorrected,
-                truth_above: tally.truth_above,
-                truth_below: tally.truth_below,
-                constant: tally.constant,
-                missed: tally.missed,
-                within_se: None,
-            });
+            out.counts.push(counted(level, class, &tally));
         }
         let t = students_t().intervals(&planes, level)?;
         out.widths.push((level.confidence(), t.and_then(|t| relative_width(&intervals, &t))));
