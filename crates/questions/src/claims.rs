@@ -93,3 +93,53 @@ pub(crate) fn settle(summary: &mut Summary) {
         by_chance: family.by_chance,
     };
 }
+
+#[cfg(test)]
+mod tests {
+    use noisefloor_study::summary::Source;
+
+    use super::*;
+
+    #[test]
+    fn a_refutation_that_does_not_stand_beside_the_others_is_taken_back() {
+        let interval = |value: f64, half: f64| Interval {
+            value,
+            standard_error: Some(half / 3.182_446),
+            low: Some(value - half),
+            high: Some(value + half),
+            confidence: 0.95,
+            n: 4,
+            source: Source::Replicates,
+            below: None,
+        };
+        let mut summary = Summary::default();
+        for (what, value) in [("weak", 1.4), ("held", 0.5), ("held too", 0.5)] {
+            let id = ClaimId {
+                question: "q".into(),
+                what: what.into(),
+                scene: "s".into(),
+                spp: None,
+                label: "mc".into(),
+            };
+            push(
+                &mut summary,
+                Claim {
+                    id,
+                    sentence: String::new(),
+                    effect: interval(value, 0.39),
+                    uncorrected: None,
+                    scale: Scale::Number,
+                    region: Some(Region { low: 0.0, high: 1.0 }),
+                    common: 0.0,
+                    trials: None,
+                },
+            );
+        }
+        settle(&mut summary);
+        let weak = &summary.claims[0];
+        assert_eq!((weak.alone, weak.verdict), (Verdict::Refuted, Verdict::NotShown));
+        assert!((weak.p_adjusted.unwrap() / weak.p.unwrap() - 3.0).abs() < 1e-9);
+        assert_eq!(summary.claims[1].verdict, Verdict::Shown);
+        assert_eq!((summary.family.tested, summary.family.refuted_alone), (3, 1));
+    }
+}

@@ -77,4 +77,26 @@ mod tests {
         let interval = replicate_interval(&[0.9, 1.1, 1.05, 0.95], 0.0, Level::TWO_SIDED_95).unwrap();
         assert_eq!(needed(&Evidence::of(&interval, 0.0), edge), Needed::TooMany);
     }
+
+    #[test]
+    fn a_noise_that_replicates_share_asks_for_more_of_them() {
+        let values = [0.9, 1.1, 1.05, 0.95];
+        let count = |common: f64| {
+            let interval = replicate_interval(&values, common, Level::TWO_SIDED_95).unwrap();
+            match needed(&Evidence::of(&interval, common), Region { low: 0.95, high: 2.0 }) {
+                Needed::Replicates(count) => count,
+                other => panic!("{other:?}"),
+            }
+        };
+        // t·√(s²/R + c²) ≤ 0.05, with the spread s² of the four values.
+        let own = 0.05f64 / 6.0;
+        let wide = |n: u32, c: f64| {
+            t_quantile(Level::TWO_SIDED_95, u64::from(n) - 1) * (own / f64::from(n) + c * c).sqrt() > 0.05
+        };
+        for common in [0.0, 0.02] {
+            let enough = count(common);
+            assert!(!wide(enough, common) && wide(enough - 1, common), "{common}: {enough}");
+        }
+        assert!(count(0.02) > count(0.0));
+    }
 }

@@ -77,7 +77,6 @@ fn cells_of_known_coverage_are_refuted_no_more_often_than_the_rule_says() {
     // The intervals behind the verdicts leave out the truth itself in 5 %.
     let (without, _) =
         refuted(20, &LEVELS, students_t(), |confidence| Region { low: confidence, high: confidence });
-    println!("{wrong} of {cells} cells refuted, {without} intervals without the truth");
     assert!(share(without) <= limit && without > wrong, "{without}");
 }
 
@@ -85,4 +84,81 @@ fn cells_of_known_coverage_are_refuted_no_more_often_than_the_rule_says() {
 fn cells_whose_intervals_are_too_narrow_are_refuted() {
     let (right, cells) = refuted(5, &[4], family("normal").unwrap(), Region::coverage);
     assert_eq!((right, cells), (15, 15));
+}
+
+/// A scene whose reference has so many samples; 0 for exact truth.
+fn scene(reference_spp: u64) -> SceneContext {
+    let reference = serde_json::json!({
+        "key": "", "spp": reference_spp, "parts": 8, "sampling": "independent", "exact": reference_spp == 0,
+        "correction": "", "floor": {},
+    });
+    let context = serde_json::json!({
+        "id": "s", "title": "", "about": "", "width": 8, "height": 8, "sampling": "independent", "settings": {},
+        "replicates": {}, "classes": [], "reference": reference,
+    });
+    serde_json::from_value(context).unwrap()
+}
+
+/// What is claimed of two replicates that cover `covered` of 1000 with the allowance and 900 without, beside `missed` events.
+fn claimed(reference_spp: u64, spp: u32, covered: u64, missed: u64) -> Summary {
+    let count = |k: u64| CoverageCount {
+        confidence: 0.95,
+        class: ALL.into(),
+        total: 1000,
+        covered: covered + k,
+        covered_uncorrected: 900 + k,
+        truth_above: 0,
+        truth_below: 0,
+        constant: 5000,
+        missed,
+        within_se: None,
+    };
+    let counts = [count(0), count(1)];
+    let share = Interval {
+        value: 0.95,
+        standard_error: None,
+        low: None,
+        high: None,
+        confidence: 0.95,
+        n: 2,
+        source: noisefloor_study::summary::Source::None,
+        below: None,
+    };
+    let row = CoverageSummary {
+        scene: "s".into(),
+        spp,
+        confidence: 0.95,
+        class: ALL.into(),
+        covered: share.clone(),
+        covered_uncorrected: share,
+        varying: None,
+        lit: None,
+        sides: None,
+        constant: 0.0,
+        missed: missed as f64 / 1e4,
+        mark: None,
+    };
+    let mut summary = Summary::default();
+    claims(&mut summary, &scene(reference_spp), "mc", (&row, &counts.iter().collect::<Vec<_>>()));
+    summary
+}
+
+#[test]
+fn the_allowance_is_a_bracket_where_a_short_reference_meets_few_samples_and_only_there() {
+    let effect = |reference_spp, spp| claimed(reference_spp, spp, 950, 0).claims[0].uncorrected.clone();
+    let raw = effect(63 * 16, 16).unwrap();
+    assert!((raw.value - 0.9005).abs() < 1e-12, "{raw:?}");
+    assert_eq!(claimed(63 * 16, 16, 950, 0).claims[0].alone, Verdict::NotShown, "all between is possible");
+    assert_eq!(effect(64 * 16, 16), None, "long enough");
+    assert_eq!(effect(2048, 64), None, "many samples");
+    assert_eq!(effect(0, 4), None, "exact");
+}
+
+#[test]
+fn constant_pixels_are_in_no_claim_and_missed_events_are_misses_in_one_of_their_own() {
+    let summary = claimed(0, 4, 950, 1000);
+    let values: Vec<f64> = summary.claims.iter().map(|claim| claim.effect.value).collect();
+    assert_eq!(values.len(), 2);
+    assert!((values[0] - 0.9505).abs() < 1e-12 && (values[1] - 0.475_25).abs() < 1e-12, "{values:?}");
+    assert_eq!(claimed(0, 4, 950, 0).claims.len(), 1, "nothing was missed: one and the same claim");
 }

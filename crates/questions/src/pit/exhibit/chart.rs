@@ -42,7 +42,7 @@ pub(super) fn chart(scene: &SceneSummary, name: &str, here: &[&Finding], bands: 
     Some(Chart {
         id: format!("pit-{name}"),
         kind: "pit".into(),
-        title: format!("{} · probability integral transform", scene.title),
+        title: format!("{} · PIT of the input", scene.title),
         panels: vec![panel],
     })
 }
