@@ -6,7 +6,7 @@ use noisefloor_denoiser::Registry;
 use noisefloor_questions::{measuring, measuring_of};
 use noisefloor_study::plan::{Item, PLAN_SCHEMA, PlannedCell, PlannedFrame};
 use noisefloor_study::record::RECORD_SCHEMA;
-use noisefloor_study::{Key, Place, Study, StudyError, key_of, metric};
+use noisefloor_study::{BASELINE, Key, Place, Study, StudyError, key_of, metric};
 use serde_json::json;
 
 use crate::error::HarnessError;
@@ -158,6 +158,10 @@ fn cell_key(study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row, beside: 
     // Cells without neighbouring frames keep the keys that they had when there were none.
     if !beside.is_empty() {
         all["beside"] = json!(beside.iter().map(|(_, frame)| &frame.key).collect::<Vec<_>>());
+    }
+    // Other families of intervals are measured of the input alone.
+    if !study.intervals.is_empty() && row.method.id == BASELINE {
+        all["intervals"] = json!(study.intervals);
     }
     // Nor does a metric change the keys of studies that do not list it, unless it is always measured.
     let asked = metric::asked(&study.metrics);

@@ -13,6 +13,10 @@ use crate::common::{Place, Watch, study};
 const CHANNELS: u64 = 96 * 64 * 3 * 4;
 
 fn run(law: &str, asked: &str) -> Summary {
+    run_at(&Place::new(), law, asked)
+}
+
+fn run_at(place: &Place, law: &str, asked: &str) -> Summary {
     let toml = format!(
         r#"
 name = "asked"
@@ -28,7 +32,7 @@ synthetic = {{ image = "flats", law = {law}, width = 96, height = 64, guides = "
 id = "mc"
 "#
     );
-    Place::new().run(&study(&toml), &Watch::default()).unwrap()
+    place.run(&study(&toml), &Watch::default()).unwrap()
 }
 
 fn claim<'a>(summary: &'a Summary, what: &str) -> &'a ClaimSummary {
@@ -69,6 +73,21 @@ intervals = ["normal", "hall", "pooled-t", "upper-t", "asymmetric-t"]"#;
     // What a limit on the upper side misses lies above it, and a lower one would not miss at all.
     assert!(number("upper limit by t", 4).unwrap() > 0.15 && number("upper limit by t", 5) == Some(0.0));
     assert!(shown.charts().iter().any(|chart| chart.id == "intervals-flats"));
+}
+
+#[test]
+fn what_is_asked_for_later_is_measured_then() {
+    let (place, law) = (Place::new(), "\"gaussian\", sd = 0.3");
+    let asked = |summary: &Summary, question: &str| {
+        summary.claims.iter().filter(|claim| claim.id.question == question).count()
+    };
+    let first = run_at(&place, law, "");
+    assert_eq!((asked(&first, "intervals"), asked(&first, "membership")), (0, 0));
+    let later = run_at(&place, law, "intervals = [\"normal\"]\nmembership = true");
+    // Of the three tests of membership two have a known rate.
+    assert_eq!((asked(&later, "intervals"), asked(&later, "membership")), (1, 2));
+    let both = run_at(&place, law, "intervals = [\"normal\", \"pooled-t\"]");
+    assert_eq!((asked(&both, "intervals"), asked(&both, "membership")), (2, 0));
 }
 
 #[test]

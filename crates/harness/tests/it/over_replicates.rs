@@ -80,3 +80,22 @@ fn skewed_samples_are_refuted_where_the_truth_is_known() {
         |text: &str| statistics.parts.iter().any(|p| matches!(p, Part::Heading(h) if h.contains(text)));
     assert!(headed("without a reference") && headed("Uniformity"));
 }
+
+#[test]
+fn a_level_is_measured_again_where_its_outputs_are_others() {
+    let place = Place::new();
+    let law = STUDY.replace("\"LAW\"", "\"gaussian\", sd = 0.3");
+    let bias = |toml: &str| {
+        let summary = place.run(&study(toml), &Watch::default()).unwrap();
+        let found = summary.answers["bias_variance"].as_array().unwrap().clone();
+        let of_row =
+            |f: &&serde_json::Value| f["label"] == "judge" && f["class"] == "all" && f["relative"] == false;
+        found.iter().find(of_row).unwrap()["bias"]["value"].as_f64().unwrap()
+    };
+    let first = bias(&law);
+    assert!((first - 0.1).abs() < 0.01, "{first}");
+    // The same label, frames and reference, another method.
+    let other = bias(&law.replace("offset = 0.1", "offset = 0.3"));
+    assert!((other - 0.3).abs() < 0.01, "{other}");
+    assert_eq!(bias(&law), first, "and back");
+}
