@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use noisefloor_denoiser::Registry;
-use noisefloor_questions::{measuring, measuring_of};
+use noisefloor_questions::{measuring, measuring_of, measuring_of_intervals};
 use noisefloor_study::plan::{Item, PLAN_SCHEMA, PlannedCell, PlannedFrame};
 use noisefloor_study::record::RECORD_SCHEMA;
 use noisefloor_study::{BASELINE, Key, Place, Study, StudyError, key_of, metric};
@@ -161,7 +161,10 @@ fn cell_key(study: &Study, scene: &Scene, frame: &FrameSpec, row: &Row, beside: 
     }
     // Other families of intervals are measured of the input alone.
     if !study.intervals.is_empty() && row.method.id == BASELINE {
-        all["intervals"] = json!(study.intervals);
+        let families = study.interval_families();
+        let found: BTreeMap<&str, Key> =
+            families.iter().map(|family| (family.id(), measuring_of_intervals(*family))).collect();
+        all["intervals"] = json!(found);
     }
     // Nor does a metric change the keys of studies that do not list it, unless it is always measured.
     let asked = metric::asked(&study.metrics);

@@ -5,6 +5,7 @@ mod exhibit;
 mod measure;
 
 pub(crate) use exhibit::coverage_of;
+pub(crate) use measure::of_family;
 
 use crate::question::Question;
 

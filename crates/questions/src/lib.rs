@@ -47,7 +47,7 @@ pub use instrument::{
 };
 pub use level::{LevelCell, LevelFound, LevelFrame, Map, Outputs};
 pub use list::{QUESTIONS, measure, measure_level};
-pub use measuring::{measuring, measuring_of, measuring_of_levels};
+pub use measuring::{measuring, measuring_of, measuring_of_intervals, measuring_of_levels};
 pub use question::Question;
 pub use readme::{Asked, Block, Kind, readme_table};
 pub use records::median;

@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, OnceLock, PoisonError};
 
 use noisefloor_denoiser::Claim;
-use noisefloor_frame::{Frame, Image, Reference, Sampling};
+use noisefloor_frame::{Frame, Image, Reference, Sampling, Statistic};
 use noisefloor_metrics::{Classes, Measurer, Metric, MetricError, block_bootstrap};
-use noisefloor_stats::{Level, ShapeError, students_t};
+use noisefloor_stats::{IntervalFamily, Level, ShapeError, students_t};
 use noisefloor_study::{Bits, Key, key_of};
 use noisefloor_synthetic::{Guides, ImageKind, MeanImage, SampleLaw, SyntheticError, SyntheticScene};
 use serde_json::{Value, json};
 
 use crate::cell::{Measure, MeasureError, PixelClasses};
 use crate::error::{BOOTSTRAP_IMAGES, ratio_within_se};
+use crate::intervals::of_family;
 use crate::level::{LevelCell, LevelFrame, Outputs};
 use crate::list::{QUESTIONS, measure_level};
 
@@ -72,6 +73,21 @@ fn levels() -> Result<Value, Wrong> {
         out.push(json!([found.answers, bits.finish()]));
     }
     Ok(json!(out))
+}
+
+/// The same for a family of intervals that is measured on request alone: what it covers, and its widths.
+pub fn measuring_of_intervals(family: &dyn IntervalFamily) -> Key {
+    let numbers = || -> Result<Value, Wrong> {
+        let statistics = [Statistic::ThirdMoment, Statistic::Least, Statistic::Greatest];
+        let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), SampleLaw::Exponential, 24, 18)?;
+        let frame = scene.clone().with_guides(Guides::None).render_with(6, 1, &statistics);
+        let truth = scene.truth();
+        let classes = PixelClasses::from_reference(&truth);
+        let measure = Measure::new(&frame, &truth, &classes, &[], false);
+        let Some(observed) = measure.intervals() else { return Ok(Value::Null) };
+        Ok(json!(of_family(&measure, family, &observed, &[0.8, 0.95])?))
+    };
+    numbers().map_or_else(|error| format!("{}: {error}", family.id()), |numbers| key_of(&numbers))
 }
 
 /// The same for a metric that is measured on request alone: its numbers, those of classes and its spread.
@@ -211,6 +227,14 @@ mod tests {
         });
         assert_ne!(one, pixels);
         assert_eq!(key_of(&everything().unwrap()), key_of(&before));
+    }
+
+    #[test]
+    fn every_family_of_intervals_has_a_fingerprint_of_its_own() {
+        let all: std::collections::BTreeSet<Key> =
+            noisefloor_stats::FAMILIES.iter().map(|family| measuring_of_intervals(*family)).collect();
+        assert_eq!(all.len(), noisefloor_stats::FAMILIES.len());
+        assert!(all.iter().all(|key| key.len() == 32), "{all:?}");
     }
 
     #[test]

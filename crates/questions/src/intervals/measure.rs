@@ -14,7 +14,7 @@ pub(super) const ID: &str = "intervals";
 
 /// What one family gave on one frame.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct OfFamily {
+pub(crate) struct OfFamily {
     /// Its id.
     pub(super) family: String,
     /// Per confidence and class, as for Student's t.
@@ -41,7 +41,7 @@ pub(super) fn measure(cell: &Cell<'_>, record: &mut Record) -> Result<(), Measur
 }
 
 /// Nothing where the frame lacks what the family needs.
-fn of_family(
+pub(crate) fn of_family(
     measure: &Measure<'_>,
     family: &dyn IntervalFamily,
     observed: &Observed<'_>,
