@@ -1,6 +1,6 @@
 //! Every built-in scene, all the way through.
 
-use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
+use noisefloor::harness::{StudyRun, run};
 use noisefloor::questions::violations;
 use noisefloor::render::{
     Integrator, PhotonMaps, PhotonSettings, Prepared, Recorded, RenderRequest, Silent as Quiet, render,
@@ -26,17 +26,10 @@ fn every_scene_can_be_studied_by_its_name() {
         study.timing.warmup = 0;
         study.timing.runs = 1;
         let folder = tempfile::tempdir().unwrap();
+        let registry = noisefloor::registry::registry([]);
         let summary = run(&StudyRun {
-            study: &study,
-            registry: &noisefloor::registry::registry([]),
-            out_dir: folder.path(),
-            cache_dir: cache.path(),
             size: Some((20, 15)),
-            again: &[],
-            command: String::new(),
-            simd: String::new(),
-            laboratory: Laboratory::default(),
-            observer: &Silent,
+            ..StudyRun::new(&study, &registry, folder.path(), cache.path())
         })
         .unwrap_or_else(|e| panic!("{}: {e}", entry.id));
         assert_eq!(summary.cells.len(), 3, "{}", entry.id);

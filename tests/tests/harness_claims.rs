@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
+use noisefloor::harness::{StudyRun, run};
 use noisefloor::questions::violations;
 use noisefloor::study::summary::Summary;
 use noisefloor::study::{Study, builtin_studies};
@@ -10,19 +10,9 @@ use noisefloor::study::{Study, builtin_studies};
 fn run_study(text: &str) -> (tempfile::TempDir, Summary) {
     let folder = tempfile::tempdir().unwrap();
     let study = Study::from_toml(text, Path::new("test.toml")).unwrap_or_else(|e| panic!("{e}"));
-    let summary = run(&StudyRun {
-        study: &study,
-        registry: &noisefloor::registry::registry([]),
-        out_dir: &folder.path().join("out"),
-        cache_dir: &folder.path().join("cache"),
-        size: None,
-        again: &[],
-        command: String::new(),
-        simd: String::new(),
-        laboratory: Laboratory::default(),
-        observer: &Silent,
-    })
-    .unwrap_or_else(|e| panic!("{e}"));
+    let registry = noisefloor::registry::registry([]);
+    let (out, cache) = (folder.path().join("out"), folder.path().join("cache"));
+    let summary = run(&StudyRun::new(&study, &registry, &out, &cache)).unwrap_or_else(|e| panic!("{e}"));
     (folder, summary)
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::io::Write as _;
 use std::path::Path;
 
-use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
+use noisefloor::harness::{StudyRun, run};
 use noisefloor::questions::{checks, failed_checks};
 use noisefloor::stats::rate_standard_error;
 use noisefloor::study::Study;
@@ -31,18 +31,8 @@ id = "mc"
 fn measured(seed: u64) -> Result<Summary, Failure> {
     let study = Study { seed, ..Study::from_toml(STUDY, Path::new("clean.toml"))? };
     let folder = std::env::temp_dir().join(format!("clean-self-checks-{}-{seed}", std::process::id()));
-    let summary = run(&StudyRun {
-        study: &study,
-        registry: &noisefloor::registry::registry([]),
-        out_dir: &folder.join("out"),
-        cache_dir: &folder.join("cache"),
-        size: None,
-        again: &[],
-        command: String::new(),
-        simd: String::new(),
-        laboratory: Laboratory::default(),
-        observer: &Silent,
-    });
+    let registry = noisefloor::registry::registry([]);
+    let summary = run(&StudyRun::new(&study, &registry, &folder.join("out"), &folder.join("cache")));
     std::fs::remove_dir_all(&folder)?;
     Ok(summary?)
 }

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::process::{self, Command};
 
-use noisefloor::harness::{Laboratory, Silent, StudyRun, run};
+use noisefloor::harness::{Laboratory, StudyRun, run};
 use noisefloor::questions::{Check, checks, failed_checks};
 use noisefloor::registry::registry;
 use noisefloor::stats::family;
@@ -26,19 +26,8 @@ id = "mc"
 
 fn measured(folder: &Path, registry: &Registry, laboratory: Laboratory<'_>) -> Summary {
     let study = Study::from_toml(STUDY, Path::new("test.toml")).unwrap();
-    run(&StudyRun {
-        study: &study,
-        registry,
-        out_dir: &folder.join("out"),
-        cache_dir: &folder.join("cache"),
-        size: None,
-        again: &[],
-        command: String::new(),
-        simd: String::new(),
-        laboratory,
-        observer: &Silent,
-    })
-    .unwrap()
+    let (out, cache) = (folder.join("out"), folder.join("cache"));
+    run(&StudyRun { laboratory, ..StudyRun::new(&study, registry, &out, &cache) }).unwrap()
 }
 
 fn report(folder: &Path) -> process::Output {

@@ -76,8 +76,9 @@ fn levels() -> Result<Value, Wrong> {
 }
 
 /// The same for a family of intervals that is measured on request alone: what it covers, and its widths.
-pub fn measuring_of_intervals(family: &dyn IntervalFamily) -> Key {
-    let numbers = || -> Result<Value, Wrong> {
+pub fn measuring_of_intervals(family: &'static dyn IntervalFamily) -> Key {
+    static KNOWN: Known = Mutex::new(BTreeMap::new());
+    remembered(&KNOWN, family.id(), || {
         let statistics = [Statistic::ThirdMoment, Statistic::Least, Statistic::Greatest];
         let scene = SyntheticScene::new(MeanImage::of(ImageKind::Mixed), SampleLaw::Exponential, 24, 18)?;
         let frame = scene.clone().with_guides(Guides::None).render_with(6, 1, &statistics);
@@ -86,18 +87,23 @@ pub fn measuring_of_intervals(family: &dyn IntervalFamily) -> Key {
         let measure = Measure::new(&frame, &truth, &classes, &[], false);
         let Some(observed) = measure.intervals() else { return Ok(Value::Null) };
         Ok(json!(of_family(&measure, family, &observed, &[0.8, 0.95])?))
-    };
-    numbers().map_or_else(|error| format!("{}: {error}", family.id()), |numbers| key_of(&numbers))
+    })
 }
 
 /// The same for a metric that is measured on request alone: its numbers, those of classes and its spread.
 pub fn measuring_of(metric: &'static Metric) -> Key {
-    static KNOWN: Mutex<BTreeMap<&str, Key>> = Mutex::new(BTreeMap::new());
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    let key = || {
-        numbers_of(metric).map_or_else(|error| format!("{}: {error}", metric.id), |numbers| key_of(&numbers))
-    };
-    known.entry(metric.id).or_insert_with(key).clone()
+    static KNOWN: Known = Mutex::new(BTreeMap::new());
+    remembered(&KNOWN, metric.id, || numbers_of(metric))
+}
+
+/// Hashes by the id of what was measured.
+type Known = Mutex<BTreeMap<&'static str, Key>>;
+
+/// The hash of this id, made once.
+fn remembered(known: &Known, id: &'static str, numbers: impl FnOnce() -> Result<Value, Wrong>) -> Key {
+    let mut known = known.lock().unwrap_or_else(PoisonError::into_inner);
+    let key = || numbers().map_or_else(|error| format!("{id}: {error}"), |numbers| key_of(&numbers));
+    known.entry(id).or_insert_with(key).clone()
 }
 
 fn numbers_of(metric: &'static Metric) -> Result<Value, Wrong> {

@@ -4,7 +4,7 @@ use noisefloor_denoiser::Registry;
 use noisefloor_study::Study;
 
 use crate::laboratory::Laboratory;
-use crate::observer::Observer;
+use crate::observer::{Observer, Silent};
 
 /// A study to run, with everything it needs from outside.
 pub struct StudyRun<'a> {
@@ -28,6 +28,25 @@ pub struct StudyRun<'a> {
     pub laboratory: Laboratory<'a>,
     /// Is told how it goes, and may stop it.
     pub observer: &'a dyn Observer,
+}
+
+impl<'a> StudyRun<'a> {
+    /// A run of the study as it is, of which nobody is told.
+    #[must_use]
+    pub fn new(study: &'a Study, registry: &'a Registry, out_dir: &'a Path, cache_dir: &'a Path) -> Self {
+        Self {
+            study,
+            registry,
+            out_dir,
+            cache_dir,
+            size: None,
+            again: &[],
+            command: String::new(),
+            simd: String::new(),
+            laboratory: Laboratory::default(),
+            observer: &Silent,
+        }
+    }
 }
 
 impl std::fmt::Debug for StudyRun<'_> {

@@ -6,7 +6,6 @@ use noisefloor_study::{Place, StudyError};
 use serde_json::Map;
 
 use crate::error::HarnessError;
-use crate::observer::Silent;
 use crate::run::request::StudyRun;
 use crate::store::{Layout, Records};
 
@@ -38,16 +37,11 @@ pub(super) fn self_check(
     // Beside the records: whoever doubts a check has its frames.
     let frames = out.join("frames");
     let summary = run(&StudyRun {
-        study: &study,
-        registry: request.registry,
-        out_dir: &out,
-        cache_dir: &frames,
         size: Some(SELF_CHECK_SIZE),
-        again: &[],
         command: request.command.clone(),
         simd: request.simd.clone(),
         laboratory: request.laboratory,
-        observer: &Silent,
+        ..StudyRun::new(&study, request.registry, &out, &frames)
     })?;
     let records = Records::read(&Layout::new(&out).records())?.records;
     Ok(self_checks(&records, &summary))
