@@ -30,6 +30,7 @@ mod question;
 mod readme;
 mod records;
 mod reference_free;
+mod section;
 mod shown;
 mod spread;
 mod statistics;

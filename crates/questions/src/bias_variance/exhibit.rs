@@ -8,6 +8,7 @@ use noisefloor_study::exhibit::{Exhibit, Part};
 use super::ID;
 use super::analyse::Finding;
 use crate::answers;
+use crate::section::section;
 use crate::view::View;
 
 const NOTE: &str = "The squared error of a row, split into the square of its bias, which no number of replicates takes away, and the \
@@ -25,16 +26,5 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
             charts.extend(chart::chart(view, scene, &name, &here).filter(|_| view.draws("bias")));
         }
     }
-    if tables.is_empty() {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::Note(NOTE.into())];
-    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
-    parts.extend(tables);
-    vec![Exhibit {
-        id: ID.into(),
-        name: "Bias and variance".into(),
-        title: "Bias and variance of the errors".into(),
-        parts,
-    }]
+    section([ID, "Bias and variance", "Bias and variance of the errors"], NOTE, charts, tables)
 }

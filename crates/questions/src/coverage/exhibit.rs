@@ -7,6 +7,7 @@ use noisefloor_study::exhibit::{Exhibit, Part};
 
 pub(super) use table::{Covered, covered};
 
+use crate::section::section;
 use crate::view::View;
 
 const NOTE: &str = "How often Student's interval around the noisy mean contains the truth, allowing for the noise of the reference. \
@@ -24,16 +25,5 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
             charts.extend(chart::chart(view, scene, &name).filter(|_| view.draws("coverage")));
         }
     }
-    if tables.is_empty() {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::Note(NOTE.into())];
-    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
-    parts.extend(tables);
-    vec![Exhibit {
-        id: "coverage".into(),
-        name: "Coverage".into(),
-        title: "Coverage of the input's confidence intervals".into(),
-        parts,
-    }]
+    section(["coverage", "Coverage", "Coverage of the input's confidence intervals"], NOTE, charts, tables)
 }

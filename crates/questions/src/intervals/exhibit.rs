@@ -13,6 +13,7 @@ use super::measure::ID;
 use crate::answers;
 use crate::cell::ALL;
 use crate::charts::{distinct, distinct_values, levels_axis};
+use crate::section::section;
 use crate::shown;
 use crate::view::View;
 
@@ -22,13 +23,9 @@ const NOTE: &str = "How often intervals around the noisy mean contain the truth,
 
 pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     let found = findings(view);
-    if found.is_empty() {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::Note(NOTE.into())];
-    let charts: Vec<Chart> =
-        view.named_scenes().filter_map(|(scene, name)| chart(view, scene, &name, &found)).collect();
-    parts.push(Part::Charts(charts));
+    let drawn = view.named_scenes().filter(|_| view.draws("intervals"));
+    let charts = drawn.filter_map(|(scene, name)| chart(view, scene, &name, &found)).collect();
+    let mut parts = Vec::new();
     for (scene, name) in view.named_scenes() {
         let here = |all: bool| found.iter().filter(move |f| f.scene == scene.id && (f.class == ALL) == all);
         let rows: Vec<TableRow> = here(true).map(|f| row(view, f, false)).collect();
@@ -43,8 +40,7 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
             parts.push(Part::folded("By pixel class", vec![Part::Table(table)]));
         }
     }
-    let title = "Families of intervals: coverage and width".into();
-    vec![Exhibit { id: ID.into(), name: "Intervals".into(), title, parts }]
+    section([ID, "Intervals", "Families of intervals: coverage and width"], NOTE, charts, parts)
 }
 
 fn findings(view: &View<'_>) -> Vec<Finding> {

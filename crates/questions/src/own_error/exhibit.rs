@@ -7,6 +7,7 @@ use noisefloor_study::exhibit::{Exhibit, Part};
 
 pub(super) use table::effect;
 
+use crate::section::section;
 use crate::view::View;
 
 const NOTE: &str = "Mean over the image of the squared error that a method says it has, beside the mean that was measured with the \
@@ -26,16 +27,5 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
         }
         charts.extend(chart::chart(view, scene, &name).filter(|_| view.draws("estimates")));
     }
-    if tables.is_empty() {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::Note(NOTE.into())];
-    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
-    parts.extend(tables);
-    vec![Exhibit {
-        id: "estimates".into(),
-        name: "Own estimates".into(),
-        title: "Own error estimates: told and measured".into(),
-        parts,
-    }]
+    section(["estimates", "Own estimates", "Own error estimates: told and measured"], NOTE, charts, tables)
 }

@@ -8,6 +8,7 @@ use noisefloor_study::{BASELINE, format};
 use super::ID;
 use super::analyse::{Finding, Findings, id_of};
 use crate::answers;
+use crate::section::section;
 use crate::shown;
 use crate::view::View;
 
@@ -34,18 +35,7 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
             ..Table::default()
         }));
     }
-    if tables.is_empty() {
-        return Vec::new();
-    }
-    let mut parts = vec![Part::Note(NOTE.into())];
-    parts.extend((!charts.is_empty()).then_some(Part::Charts(charts)));
-    parts.extend(tables);
-    vec![Exhibit {
-        id: ID.into(),
-        name: "PIT".into(),
-        title: "Probability integral transform of the input".into(),
-        parts,
-    }]
+    section([ID, "PIT", "Probability integral transform of the input"], NOTE, charts, tables)
 }
 
 fn columns() -> Vec<Column> {

@@ -11,7 +11,8 @@ use crate::study::frames::RowFrames;
 use crate::study::shot::Shot;
 
 /// Kinds of plots that a study can choose from.
-pub const FIGURES: [&str; 7] = ["convergence", "speed", "coverage", "bounds", "estimates", "bias", "pit"];
+pub const FIGURES: [&str; 8] =
+    ["convergence", "speed", "coverage", "intervals", "bounds", "estimates", "bias", "pit"];
 
 /// What a study asks, on which scenes, at how many samples, of which methods. A file, not code.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
