@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use noisefloor_benchmarks::method_frame;
+use noisefloor_benchmarks::{method_frame, one_model};
 use noisefloor_denoiser::{Denoiser, Input};
 use noisefloor_robust_first_order::RobustFirstOrder;
 
@@ -31,5 +31,15 @@ fn whole_method(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, whole_method);
+fn one_model_against_its_hat_matrix(criterion: &mut Criterion) {
+    let mut group = criterion.benchmark_group("robust-first-order/one_model");
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    one_model(|by_moments, by_hat_matrix| {
+        group.bench_function("moments", |bencher| bencher.iter(&mut *by_moments));
+        group.bench_function("hat_matrix", |bencher| bencher.iter(&mut *by_hat_matrix));
+    });
+    group.finish();
+}
+
+criterion_group!(benches, whole_method, one_model_against_its_hat_matrix);
 criterion_main!(benches);

@@ -5,13 +5,10 @@
 use std::time::Instant;
 
 use noisefloor_baselines::nfor::{Nfor, Params, Profile};
-use noisefloor_benchmarks::method_frame;
+use noisefloor_benchmarks::{method_frame, naive_patch_means, naive_regression, patch_means, regression};
 use noisefloor_denoiser::{Denoiser, Input, Output};
-use noisefloor_frame::{FeatureId, Frame, Image, Variance};
+use noisefloor_frame::Frame;
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::regression::dense::{
-    Alone, Channel, Fit, Join, Planes, Solver, Weighting, means, naive, regress,
-};
 
 fn main() {
     let mut args = std::env::args().skip(1);
@@ -32,8 +29,8 @@ fn main() {
     }
     let small = method_frame(40, 30, false);
     let names = ["REG", "NLM of three channels, patch 3×3"];
-    let filters: [fn(&Frame); 2] = [regression, filter];
-    let twins: [fn(&Frame); 2] = [naive_regression, naive_filter];
+    let filters: [fn(&Frame); 2] = [regression, patch_means];
+    let twins: [fn(&Frame); 2] = [naive_regression, naive_patch_means];
     for ((name, fast), twin) in names.into_iter().zip(filters).zip(twins) {
         let per_megapixel = |seconds: f64, frame: &Frame| 1e6 * seconds / frame.pixels() as f64;
         let [one, two] = [1, 2].map(|threads| per_megapixel(fastest(threads, || fast(&frame)).0, &frame));
@@ -66,48 +63,4 @@ fn fastest<T: Send>(threads: usize, run: impl Fn() -> T + Sync) -> (f64, T) {
         best = (seconds.min(best.0), out);
     }
     best
-}
-
-fn weighting(frame: &Frame, patch: usize) -> Weighting {
-    let (width, height) = (frame.width(), frame.height());
-    Weighting { width, height, window: 9, patch, k: 1.0, scale: 1.0, epsilon: 1e-7 }
-}
-
-fn guide(frame: &Frame) -> Vec<Channel<'_>> {
-    let variance = frame.color.variance.as_ref().map(Variance::mean_variance).expect("a variance");
-    let channels = frame.color.mean.planes().zip(variance.planes());
-    channels.map(|(value, variance)| Channel { value, variance }).collect()
-}
-
-fn of_regression(frame: &Frame) -> (Fit, Planes<'_>) {
-    let fit =
-        Fit { weighting: weighting(frame, 3), join: Join::Minimum, solver: Solver::Dropped, positions: true };
-    let features = [FeatureId::Albedo, FeatureId::Normal, FeatureId::Depth];
-    let features = features.iter().filter_map(|id| frame.feature(id)).flat_map(|f| f.mean.planes()).collect();
-    let image = [0, 1, 2].map(|c| frame.color.mean.plane(c));
-    (fit, Planes { guide: guide(frame), features, image })
-}
-
-fn regression(frame: &Frame) {
-    let (fit, planes) = of_regression(frame);
-    std::hint::black_box(regress(&fit, &planes).expect("valid input"));
-}
-
-fn naive_regression(frame: &Frame) {
-    let (fit, planes) = of_regression(frame);
-    std::hint::black_box(naive::regress(&fit, &planes).expect("valid input"));
-}
-
-fn alone(frame: &Frame) -> Vec<Alone<'_>> {
-    let image: &Image = &frame.color.mean;
-    let channels = guide(frame).into_iter().zip(image.planes());
-    channels.map(|(guide, target)| Alone { guide, targets: vec![target] }).collect()
-}
-
-fn filter(frame: &Frame) {
-    std::hint::black_box(means(&weighting(frame, 1), &alone(frame)).expect("valid input"));
-}
-
-fn naive_filter(frame: &Frame) {
-    std::hint::black_box(naive::means(&weighting(frame, 1), &alone(frame)).expect("valid input"));
 }

@@ -3,11 +3,10 @@
 
 use std::time::Instant;
 
-use noisefloor_benchmarks::method_frame;
+use noisefloor_benchmarks::{method_frame, one_model};
 use noisefloor_denoiser::{Denoiser, Input, Output, StageSeconds};
 use noisefloor_frame::{Frame, Image};
 use noisefloor_kernels::InstructionSet;
-use noisefloor_kernels::regression::models::{Distances, Field, Planes, Rules, Start, Window, naive::Twin};
 use noisefloor_robust_first_order::RobustFirstOrder;
 
 fn main() {
@@ -52,58 +51,24 @@ fn with_texture(image: &Image) -> Image {
     Image::from_fn(image.width(), image.height(), 3, |c, x, y| image.get(c, x, y) + wave(x, y))
 }
 
-/// One window of radius 10 with one bandwidth and two steps of its error: fast, and with its hat matrix.
 fn model() {
-    let frame = method_frame(64, 64, false);
-    let color = &frame.color.mean;
-    let (m, v) = ([0, 1, 2].map(|c| color.plane(c)), vec![0.0025f32; 64 * 64]);
-    let ones = vec![1.0f32; 64 * 64];
-    let features = frame.features.values().flat_map(|f| f.mean.planes()).take(7).collect();
-    let planes = Planes {
-        guide: m,
-        guide_variance: [&v, &v, &v],
-        target: m,
-        variance: &v,
-        importance: &ones,
-        features,
-    };
-    let rules =
-        Rules { patch_radius: 3, range_sigma: 1.0, bandwidths: vec![2.0], least_weight: 1e-6, ridge: 1e-3 };
-    let field = Field::new(64, 64, &planes, rules.clone()).expect("sound planes");
-    let (mut window, level) = (Window::new(&field, 10), InstructionSet::in_use());
-    let fast = time(200, || {
-        window.open(&field, (32, 32), 10, &Distances::default(), level);
-        window.weigh(&field, 0, level);
-        window.step(&field, 0, Start::First, level);
-        window.step(&field, 0, Start::Own, level);
-        window.fit(&field, 0, false, level);
+    one_model(|by_moments, by_hat_matrix| {
+        let (fast, slow) = (time(200, by_moments), time(2, by_hat_matrix));
+        println!(
+            "one model, one bandwidth: {:.1} us, with its hat matrix {:.0} us: {:.0} times",
+            fast * 1e6,
+            slow * 1e6,
+            slow / fast
+        );
     });
-    let slow = time(2, || {
-        let twin = Twin::new((64, 64), &planes, &rules, (32, 32), 10, 2.0);
-        let mut variance = vec![0.0025; twin.pixels.len()];
-        for _ in 0..2 {
-            for plane in m {
-                let y: Vec<f64> = twin.pixels.iter().map(|p| f64::from(plane[*p])).collect();
-                std::hint::black_box(twin.times(&y));
-            }
-            variance = twin.variance(&variance);
-        }
-        std::hint::black_box(variance);
-    });
-    println!(
-        "one model, one bandwidth: {:.1} us, with its hat matrix {:.0} us: {:.0} times",
-        fast * 1e6,
-        slow * 1e6,
-        slow / fast
-    );
 }
 
 /// Least seconds of one of `count` calls, of five goes.
-fn time(count: u32, mut call: impl FnMut()) -> f64 {
-    let go = |call: &mut dyn FnMut()| {
+fn time(count: u32, call: &mut dyn FnMut()) -> f64 {
+    let mut go = || {
         let start = Instant::now();
         (0..count).for_each(|_| call());
         start.elapsed().as_secs_f64() / f64::from(count)
     };
-    (0..5).map(|_| go(&mut call)).fold(f64::INFINITY, f64::min)
+    (0..5).map(|_| go()).fold(f64::INFINITY, f64::min)
 }

@@ -20,12 +20,28 @@ pub fn furnace(albedo: f32) -> Scene {
     scene
 }
 
-/// Value of every pixel and channel of the built-in scene `id` with paths of at most `depth` surfaces, where a formula
-/// gives it.
-#[must_use]
-pub fn closed_form(id: &str, depth: u32) -> Option<f64> {
-    // Σ albedo^k over the surfaces, of an albedo of ½.
-    (id == "furnace").then(|| 2.0 * (1.0 - 0.5f64.powi(depth.min(1000) as i32)))
+/// Diffuse reflectance of the built-in furnace.
+pub(crate) const FURNACE_ALBEDO: f32 = 0.5;
+
+/// A diffuse plane under a lamp of radiance 1.
+pub(crate) struct UnderLamp {
+    pub(crate) albedo: f32,
+    /// Half the side of a panel, or the radius of a ball.
+    pub(crate) size: f32,
+    pub(crate) height: f32,
+}
+
+pub(crate) const DIRECT: UnderLamp = UnderLamp { albedo: 0.6, size: 1.0, height: 1.5 };
+pub(crate) const GRADIENT: UnderLamp = UnderLamp { albedo: 0.7, size: 0.9, height: 2.0 };
+
+/// The built-in scene `direct`.
+pub(crate) fn direct() -> Scene {
+    plane_under_panel(Vec3::splat(DIRECT.albedo), DIRECT.size, DIRECT.height)
+}
+
+/// The built-in scene `gradient`.
+pub(crate) fn gradient() -> Scene {
+    plane_under_ball(Vec3::splat(GRADIENT.albedo), GRADIENT.size, GRADIENT.height)
 }
 
 /// A sphere of radius 1 under a sky of radiance 1 from everywhere, filling the middle of the image. What it reflects
@@ -110,11 +126,14 @@ pub fn ball_irradiance(radius: f64, height: f64, aside: f64) -> f64 {
     std::f64::consts::PI * (radius / distance).powi(2) * (height / distance)
 }
 
+/// Half the side of the planes.
+pub(crate) const PLANE_HALF: f32 = 5.0;
+
 fn plane(id: &'static str, title: &'static str, albedo: impl Into<Color>) -> Scene {
     let mut scene = Scene::empty(id, title, camera(Vec3::Y * 4.0, Vec3::ZERO, Vec3::Z));
     let ground = scene.add_material(Material::diffuse("ground", albedo));
     // Beyond every view, and small: renderers lift shadow rays by the rounding of a triangle's coordinates.
-    let side = 5.0;
+    let side = PLANE_HALF;
     scene
         .add_mesh(quad(Vec3::new(-side, 0.0, -side), Vec3::Z * (2.0 * side), Vec3::X * (2.0 * side)), ground);
     scene

@@ -102,19 +102,19 @@ const SCENES: &[SceneEntry] = &[
         id: "furnace",
         about: "inside of a glowing box: every pixel is 1/(1−albedo), or the geometric sum that the path depth allows",
         photon_mapped: false,
-        build: || analytic::furnace(0.5),
+        build: || analytic::furnace(analytic::FURNACE_ALBEDO),
     },
     SceneEntry {
         id: "direct",
         about: "diffuse plane under a square lamp: the closed form of a configuration factor",
         photon_mapped: false,
-        build: || analytic::plane_under_panel(glam::Vec3::splat(0.6), 1.0, 1.5),
+        build: analytic::direct,
     },
     SceneEntry {
         id: "gradient",
         about: "diffuse plane under a ball lamp: light falls off smoothly, in closed form everywhere",
         photon_mapped: false,
-        build: || analytic::plane_under_ball(glam::Vec3::splat(0.7), 0.9, 2.0),
+        build: analytic::gradient,
     },
 ];
 

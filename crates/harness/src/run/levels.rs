@@ -106,6 +106,7 @@ fn levels<'a>(runner: &Runner<'a>, records: &Records) -> Vec<Level<'a>> {
         let key = key_of(&json!({
             "level": measuring_of_levels(),
             "reference": scene.reference_key,
+            "known_mean": scene.known_mean,
             "frames": frames.iter().map(|frame| &frame.key).collect::<Vec<_>>(),
             "cells": cells,
             // A row may get another name and keep its cells.
@@ -142,7 +143,13 @@ fn measure(
         let records = level.outputs.get(label).into_iter().flatten();
         let image = |record: &Record| {
             let path = runner.layout.root().join(record.image.as_ref()?);
-            Some((record.replicate, noisefloor_io::read_color(path).ok()?))
+            match noisefloor_io::read_color(&path) {
+                Ok(image) => Some((record.replicate, image)),
+                Err(error) => {
+                    runner.request.observer.warning(&format!("{error}; the level is measured without it"));
+                    None
+                }
+            }
         };
         records.filter_map(image).collect()
     };

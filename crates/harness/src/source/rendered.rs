@@ -24,7 +24,7 @@ use crate::source::opened::Opened;
 use crate::source::probe::{PROBE, PROBE_SPP};
 use identity::{classes_of_probe, content_hash, frame_identity};
 use noisefloor_questions::PixelClasses;
-use noisefloor_scenes::closed_form;
+use noisefloor_scenes::{Rays, closed_form};
 use noisefloor_study::hash_of_frame;
 use noisefloor_study::plan::ReferenceRange;
 use noisefloor_study::{
@@ -220,7 +220,7 @@ pub(super) fn open(
         reference_key,
         reference_spp: u64::from(reference.spp),
         reference_sampling: reference.sampling.name().to_owned(),
-        known_mean: known_mean(study, spec),
+        known_mean: known_mean(study, spec, (width, height)),
         equal_time_spp: spec.equal_time_spp,
     };
     let rendered = Rendered {
@@ -423,9 +423,13 @@ fn rendered(request: &RenderRequest<'_>, observer: &dyn Observer) -> Result<Fram
 }
 
 /// Of a scene that a formula describes, if nothing about it was changed.
-fn known_mean(study: &Study, spec: &SceneSpec) -> Option<f64> {
+fn known_mean(study: &Study, spec: &SceneSpec, size: (usize, usize)) -> Option<f64> {
+    let rays = match study.filter {
+        PixelFilter::Box => Rays::Area,
+        PixelFilter::Point => Rays::Centres,
+    };
     match &spec.source {
-        SceneSource::Builtin(id) if spec.shot == Shot::default() => closed_form(id, study.depth),
+        SceneSource::Builtin(id) if spec.shot == Shot::default() => closed_form(id, study.depth, rays, size),
         _ => None,
     }
 }

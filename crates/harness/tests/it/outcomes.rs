@@ -127,7 +127,7 @@ fn mistakes_in_a_study_file_are_told_with_file_and_line() {
         ("replicates = 2", "replicates = 2\nprimary_metric = \"energy\"", 5, "psnr, ssim"),
         ("replicates = 2", "replicates = 2\ncoverage = [95]", 5, "between 0 and 1"),
         ("replicates = 2", "replicates = 2\nfilter = \"gauss\"", 5, "point"),
-        ("replicates = 2", "replicates = 2\nfigures = [\"pie\"]", 5, "coverage, bounds"),
+        ("replicates = 2", "replicates = 2\nfigures = [\"pie\"]", 5, "coverage, intervals, bounds"),
         ("replicates = 2", "replicates = 2\nreference = { spp = 100 }", 5, "multiple of 8"),
         ("id = \"steps\"", "id = \"st/eps\"", 6, "letters"),
         ("law = \"gaussian\", sd = 0.5", "law = \"gaussian\", sd = -1", 8, "`sd` is -1"),

@@ -67,6 +67,7 @@ const STUDIES: &[BuiltinStudy] = studies![
     "liu-fig05",
     "liu-fig06",
     "liu-ablation",
+    "liu-large",
     "geometric-claim",
     "geometric-size",
 ];
