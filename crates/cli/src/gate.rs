@@ -30,6 +30,9 @@ fn refused(failure: GateFailure) -> anyhow::Error {
     match failure {
         GateFailure::Folder(error) => error.into(),
         GateFailure::Gate(error @ GateError::NotAnError { .. }) => usage(format!("--metric: {error}")),
+        error @ GateFailure::Unfinished { .. } => {
+            not_comparable(format!("the two cannot be compared: {error}"))
+        }
         GateFailure::Gate(error @ GateError::NotComparable(_)) => {
             not_comparable(format!("the two cannot be compared:\n{error}"))
         }

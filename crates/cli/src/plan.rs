@@ -7,7 +7,7 @@ mod text;
 
 use std::path::Path;
 
-use noisefloor_harness::{Forecast, forecast, spreads_of};
+use noisefloor_harness::{Forecast, SpreadsOf, forecast, spreads_of};
 use noisefloor_questions::Spread;
 use noisefloor_study::{Replicates, SceneSource, Study};
 
@@ -59,15 +59,22 @@ fn ask_for(study: &mut Study, replicates: u32) {
 
 /// The spread over replicates, and where it is from: the folder asked for, or the study's own results if there are any.
 fn spread(args: &Plan, study: &Study, out: &Path) -> anyhow::Result<(Option<String>, Vec<Spread>)> {
-    let metric = Some(study.primary_metric.as_str());
-    if let Some(from) = &args.from {
-        return Ok((Some(from.display().to_string()), spreads_of(from, metric)?));
+    let from = match &args.from {
+        Some(from) => from,
+        None if out.join("results.jsonl").is_file() => out,
+        None => return Ok((None, Vec::new())),
+    };
+    let SpreadsOf { spreads, size } = spreads_of(from, Some(study.primary_metric.as_str()))?;
+    if args.from.is_none() && spreads.is_empty() {
+        return Ok((None, spreads));
     }
-    if !out.join("results.jsonl").is_file() {
-        return Ok((None, Vec::new()));
-    }
-    let found = spreads_of(out, metric)?;
-    Ok(((!found.is_empty()).then(|| out.display().to_string()), found))
+    let planned = args.size.map_or((study.width, study.height), |size| (size.width, size.height));
+    let of_others =
+        size.filter(|measured| *measured != planned).map_or_else(String::new, |(width, height)| {
+            let (wide, high) = planned;
+            format!(" on images of {width}×{height} pixels; those of {wide}×{high} may spread otherwise")
+        });
+    Ok((Some(format!("{}{of_others}", from.display())), spreads))
 }
 
 fn plans(

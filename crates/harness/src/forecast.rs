@@ -77,7 +77,17 @@ pub fn forecast(
 ///
 /// # Errors
 /// As [`crate::analysis_of`].
-pub fn spreads_of(dir: &Path, metric: Option<&str>) -> Result<Vec<Spread>, HarnessError> {
+pub fn spreads_of(dir: &Path, metric: Option<&str>) -> Result<SpreadsOf, HarnessError> {
     let kept = KeptStudy::read(dir)?;
-    Ok(spreads(&kept.records, metric.unwrap_or(&kept.study.primary_metric)))
+    let size = kept.context.scenes.first().map(|scene| (scene.width, scene.height));
+    Ok(SpreadsOf { spreads: spreads(&kept.records, metric.unwrap_or(&kept.study.primary_metric)), size })
+}
+
+/// Spreads over replicates, and of images of which size.
+#[derive(Debug)]
+pub struct SpreadsOf {
+    /// By scene, level and pair.
+    pub spreads: Vec<Spread>,
+    /// Columns and rows of the first scene; none in a folder without one.
+    pub size: Option<(usize, usize)>,
 }

@@ -21,7 +21,7 @@ mod store;
 mod study_of_folder;
 
 pub use error::HarnessError;
-pub use forecast::{Forecast, forecast, spreads_of};
+pub use forecast::{Forecast, SpreadsOf, forecast, spreads_of};
 pub use gate::{GateFailure, gate};
 pub use laboratory::{Laboratory, Passing};
 pub use memory::{MemoryEstimate, memory_estimate};

@@ -21,28 +21,44 @@ pub(crate) struct Claim {
     pub(crate) common: f64,
     /// Trials behind a share: pixels, whose channels are one.
     pub(crate) trials: Option<u64>,
+    /// As in [`ClaimSummary::replicates_per_value`].
+    pub(crate) replicates_per_value: u32,
 }
 
 impl Claim {
     /// By itself.
     pub(crate) fn judged(&self) -> Judged {
-        let region = match self.scale {
-            Scale::Ratio => self.region.and_then(Region::ln),
-            Scale::Share | Scale::Number => self.region,
+        let open = |needed| Judged { alone: Verdict::NotShown, p: None, needed };
+        let Some(region) = region_of(self.scale, self.region) else {
+            // What the effect is relative to is not sure to be above 0.
+            return open(Needed::Reference);
         };
-        let evidence = self.evidence(&self.effect);
-        let both = match &self.uncorrected {
-            None => evidence,
-            Some(raw) => evidence.zip(self.evidence(raw)).map(|(own, raw)| own.or(&raw)),
+        let Some(evidence) = evidence(self.scale, &self.effect, self.uncorrected.as_ref(), self.common)
+        else {
+            return open(Needed::Ratio);
         };
-        match both.zip(region) {
-            Some((evidence, region)) => judge(&evidence, region),
-            // A ratio that is not positive, or none at all.
-            None => Judged { alone: Verdict::NotShown, p: None, needed: Needed::Reference },
-        }
+        let judged = judge(&Evidence { trials: self.trials, ..evidence }, region);
+        Judged { needed: in_replicates(judged.needed, self.replicates_per_value), ..judged }
     }
+}
 
-    fn evidence(&self, effect: &Interval) -> Option<Evidence> {
+/// A region on the scale that effects are judged on.
+fn region_of(scale: Scale, region: Option<Region>) -> Option<Region> {
+    match scale {
+        Scale::Ratio => region.and_then(Region::ln),
+        Scale::Share | Scale::Number => region,
+    }
+}
+
+/// An effect on the scale that it is judged on, with the other end of its bracket if there is one; none for a ratio that is
+/// not positive.
+fn evidence(
+    scale: Scale,
+    effect: &Interval,
+    uncorrected: Option<&Interval>,
+    common: f64,
+) -> Option<Evidence> {
+    let of = |effect: &Interval| {
         let interval = stats::Interval {
             value: effect.value,
             standard_error: effect.standard_error,
@@ -51,13 +67,23 @@ impl Claim {
             level: LEVEL,
             n: effect.n,
         };
-        match self.scale {
-            Scale::Ratio => Evidence::of_log_ratio(&interval, self.common),
-            Scale::Share | Scale::Number => {
-                let out = Evidence::of(&interval, self.common);
-                Some(Evidence { trials: self.trials, ..out })
-            }
+        match scale {
+            Scale::Ratio => Evidence::of_log_ratio(&interval, common),
+            Scale::Share | Scale::Number => Some(Evidence::of(&interval, common)),
         }
+    };
+    match uncorrected {
+        None => of(effect),
+        Some(raw) => of(effect).zip(of(raw)).map(|(own, raw)| own.or(&raw)),
+    }
+}
+
+/// Values that are needed, in replicates.
+fn in_replicates(needed: Needed, per_value: u32) -> Needed {
+    match needed {
+        Needed::Replicates(count) => Needed::Replicates(count.saturating_mul(per_value)),
+        Needed::Interval if per_value > 1 => Needed::Replicates(2 * per_value),
+        other => other,
     }
 }
 
@@ -71,6 +97,9 @@ pub(crate) fn push(summary: &mut Summary, claim: Claim) {
         uncorrected: claim.uncorrected,
         scale: claim.scale,
         region: claim.region,
+        common: claim.common,
+        trials: claim.trials,
+        replicates_per_value: claim.replicates_per_value,
         alone,
         verdict: alone,
         p,
@@ -86,12 +115,28 @@ pub(crate) fn settle(summary: &mut Summary) {
     let family = Verdicts::of(&judged);
     for ((claim, verdict), p) in summary.claims.iter_mut().zip(family.verdicts).zip(family.adjusted) {
         (claim.verdict, claim.p_adjusted) = (verdict, p);
+        if (claim.alone, claim.verdict) == (Verdict::Refuted, Verdict::NotShown) {
+            claim.needed = needed_beside_others(claim);
+        }
     }
     summary.family = ClaimFamily {
         tested: family.tested,
         refuted_alone: family.refuted_alone,
         by_chance: family.by_chance,
     };
+}
+
+/// What would make a refutation stand beside the other claims, if they stay what they are.
+fn needed_beside_others(claim: &ClaimSummary) -> Needed {
+    let region = region_of(claim.scale, claim.region);
+    let found = evidence(claim.scale, &claim.effect, claim.uncorrected.as_ref(), claim.common);
+    let (Some(region), Some(found), Some(p), Some(adjusted)) = (region, found, claim.p, claim.p_adjusted)
+    else {
+        return claim.needed;
+    };
+    let multiplier = if p > 0.0 { adjusted / p } else { 1.0 };
+    let found = Evidence { trials: claim.trials, ..found };
+    in_replicates(stats::needed_beside(&found, region, multiplier), claim.replicates_per_value)
 }
 
 #[cfg(test)]
@@ -132,6 +177,7 @@ mod tests {
                     region: Some(Region { low: 0.0, high: 1.0 }),
                     common: 0.0,
                     trials: None,
+                    replicates_per_value: 1,
                 },
             );
         }
@@ -139,6 +185,8 @@ mod tests {
         let weak = &summary.claims[0];
         assert_eq!((weak.alone, weak.verdict), (Verdict::Refuted, Verdict::NotShown));
         assert!((weak.p_adjusted.unwrap() / weak.p.unwrap() - 3.0).abs() < 1e-9);
+        // At a third of 5 % four replicates of this spread are too few, and not by many.
+        assert!(matches!(weak.needed, Needed::Replicates(5..=8)), "{:?}", weak.needed);
         assert_eq!(summary.claims[1].verdict, Verdict::Shown);
         assert_eq!((summary.family.tested, summary.family.refuted_alone), (3, 1));
     }

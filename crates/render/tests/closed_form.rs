@@ -3,7 +3,7 @@
 use noisefloor_frame::{Frame, PixelFilter, Sampling};
 use noisefloor_render::{Prepared, Recorded, RenderRequest, Silent, render};
 use noisefloor_scenes::analytic::{BALL_OFFSET, ball_irradiance, panel_irradiance, panel_irradiance_at};
-use noisefloor_scenes::{Scene, find};
+use noisefloor_scenes::{Rays, Scene, closed_form, find};
 
 const WIDTH: usize = 16;
 const HEIGHT: usize = 12;
@@ -98,6 +98,39 @@ fn the_furnace_is_the_geometric_sum_of_its_depth() {
         let variance = frame.color.variance.as_ref().unwrap().mean_variance();
         let error = variance.plane(0).iter().map(|v| f64::from(*v)).sum::<f64>().sqrt() / n;
         assert!(error < 0.005 && (mean - truth).abs() < 4.0 * error + 1e-5, "{mean} ± {error}, {truth}");
+    }
+}
+
+#[test]
+fn image_means_are_those_of_the_formulas() {
+    for (id, filter, rays) in [
+        ("furnace", PixelFilter::Box, Rays::Area),
+        ("direct", PixelFilter::Box, Rays::Area),
+        ("direct", PixelFilter::Point, Rays::Centres),
+        ("gradient", PixelFilter::Box, Rays::Area),
+        ("gradient", PixelFilter::Point, Rays::Centres),
+    ] {
+        let target = Prepared::new(&scene(id)).unwrap();
+        for (width, height) in [(16, 12), (12, 14)] {
+            let request = RenderRequest {
+                seed: 9,
+                depth: 4,
+                filter,
+                record: Recorded::color_only(),
+                ..RenderRequest::new(&target, width, height, 1024)
+            };
+            let frame = render(&request, &Silent).unwrap();
+            let pixels = frame.pixels() as f64;
+            let mean = frame.color.mean.plane(1).iter().map(|v| f64::from(*v)).sum::<f64>() / pixels;
+            let variance = frame.color.variance.as_ref().unwrap().mean_variance();
+            let error = variance.plane(1).iter().map(|v| f64::from(*v)).sum::<f64>().sqrt() / pixels;
+            let truth = closed_form(id, 4, rays, (width, height)).unwrap();
+            // Ten cells, each beyond four standard errors with probability 6e-5.
+            assert!(
+                error < 0.003 * truth && (mean - truth).abs() < 4.0 * error,
+                "{id}: {mean} ± {error}, {truth}"
+            );
+        }
     }
 }
 

@@ -27,6 +27,7 @@ pub fn closed_form(id: &str, depth: u32, rays: Rays, (width, height): (usize, us
     if width == 0 || height == 0 {
         return None;
     }
+    let aspect = width as f64 / height as f64;
     let seen = match id {
         "furnace" => {
             // Σ albedo^k over the surfaces, in every pixel.
@@ -34,9 +35,9 @@ pub fn closed_form(id: &str, depth: u32, rays: Rays, (width, height): (usize, us
             return Some((1.0 - albedo.powi(depth.min(1000) as i32)) / (1.0 - albedo));
         }
         // The lamps reflect nothing and the plane does not see itself: the second surface is the last.
-        "direct" if depth >= 2 => Seen::new(&direct(), width, height, under_panel),
+        "direct" if depth >= 2 => Seen::new(&direct(), aspect, under_panel),
         "gradient" if depth >= 2 => {
-            let seen = Seen::new(&gradient(), width, height, under_ball);
+            let seen = Seen::new(&gradient(), aspect, under_ball);
             if seen.shows_the_ball() {
                 return None;
             }
@@ -63,8 +64,8 @@ fn under_ball(x: f64, z: f64) -> f64 {
         * ball_irradiance(f64::from(GRADIENT.size), f64::from(GRADIENT.height), aside)
 }
 
-/// The plane of an analytic scene as its camera sees it. Places in the image are (u, v) with v from −1 (bottom) to 1 and
-/// u in units of half the height.
+/// The plane of an analytic scene as its camera sees it, rolled or not. Places in the image are (u, v), v from −1 (bottom) to
+/// 1 and u in units of half the height.
 struct Seen {
     eye: DVec3,
     forward: DVec3,
@@ -76,16 +77,23 @@ struct Seen {
     radiance: fn(f64, f64) -> f64,
 }
 
+/// Where `constant + u·x + v·y` is not below 0.
+#[derive(Clone, Copy)]
+struct HalfPlane {
+    constant: f64,
+    x: f64,
+    y: f64,
+}
+
 impl Seen {
-    fn new(scene: &Scene, width: usize, height: usize, radiance: fn(f64, f64) -> f64) -> Self {
+    fn new(scene: &Scene, aspect: f64, radiance: fn(f64, f64) -> f64) -> Self {
         let CameraSpec { eye, target, up, vertical_fov_degrees, .. } = scene.camera;
         let (eye, target) = (eye.as_dvec3(), target.as_dvec3());
         let half = (0.5 * f64::from(vertical_fov_degrees).to_radians()).tan();
         let forward = (target - eye).normalize();
-        // Neither camera looks along its up direction, and neither is rolled: this lies in the horizontal.
+        // No camera looks along its up direction.
         let right = forward.cross(up.as_dvec3()).normalize();
         let up = right.cross(forward);
-        let aspect = width as f64 / height as f64;
         Self { eye, forward, right: right * half, up: up * half, aspect, radiance }
     }
 
@@ -96,47 +104,59 @@ impl Seen {
         (self.aspect * self.right.length()).atan() >= rim
     }
 
-    /// Where a row of the image meets the plane: a point, and how far it moves with u. None above the horizon.
-    fn row(&self, v: f64) -> Option<(DVec3, DVec3)> {
-        let ray = self.forward + self.up * v;
-        (ray.y < 0.0).then(|| {
-            let reach = self.eye.y / -ray.y;
-            (self.eye + ray * reach, self.right * reach)
-        })
+    /// The part of the image where the plane is: below the horizon, within ±[`PLANE_HALF`] in x and z, inside of the image's
+    /// sides. Straight lines all, since a ray that falls meets the plane at eye + ray·eye.y/(−ray.y).
+    fn edges(&self) -> [HalfPlane; 7] {
+        let limit = f64::from(PLANE_HALF);
+        let along = |of: &dyn Fn(DVec3) -> f64| HalfPlane {
+            constant: of(self.forward),
+            x: of(self.right),
+            y: of(self.up),
+        };
+        let slab = |axis: usize, side: f64| {
+            // side·(limit·side − eye)·(−ray.y) − side·ray·eye.y, not below 0.
+            along(&|ray| side * ((limit * side - self.eye[axis]) * -ray.y - ray[axis] * self.eye.y))
+        };
+        [
+            along(&|ray| -ray.y),
+            slab(0, 1.0),
+            slab(0, -1.0),
+            slab(2, 1.0),
+            slab(2, -1.0),
+            HalfPlane { constant: self.aspect, x: 1.0, y: 0.0 },
+            HalfPlane { constant: self.aspect, x: -1.0, y: 0.0 },
+        ]
     }
 
-    /// The part of a row on the plane, which ends at ±[`PLANE_HALF`] in x and z.
-    fn lit(&self, (point, step): (DVec3, DVec3)) -> Option<(f64, f64)> {
-        let limit = f64::from(PLANE_HALF);
-        let slabs = [(point.x, step.x), (point.z, step.z)];
-        let both = slabs.into_iter().try_fold((-self.aspect, self.aspect), |(from, to), (at, by)| {
-            // A direction that the row does not move in is inside for all of it or for nothing.
-            if by.abs() < 1e-9 {
-                return (at.abs() <= limit).then_some((from, to));
+    /// From where to where a row shows the plane.
+    fn lit(&self, v: f64) -> Option<(f64, f64)> {
+        let mut ends = (-self.aspect, self.aspect);
+        for HalfPlane { constant, x, y } in self.edges() {
+            let at = constant + y * v;
+            // An edge along the row has all of it on one side.
+            if x.abs() < 1e-12 {
+                if at < 0.0 {
+                    return None;
+                }
+            } else if x > 0.0 {
+                ends.0 = ends.0.max(-at / x);
+            } else {
+                ends.1 = ends.1.min(-at / x);
             }
-            let ends = [(-limit - at) / by, (limit - at) / by];
-            Some((from.max(ends[0].min(ends[1])), to.min(ends[0].max(ends[1]))))
-        });
-        both.filter(|(from, to)| from < to)
+        }
+        (ends.0 < ends.1).then_some(ends)
     }
 
-    /// Rows at which the lit part of a row begins, ends, or reaches the image's sides.
-    fn breaks(&self) -> Vec<f64> {
-        let limit = f64::from(PLANE_HALF);
+    /// Rows at corners of the part with the plane: between two of them its ends are straight.
+    fn corners(&self) -> Vec<f64> {
+        let edges = self.edges();
         let mut found = vec![-1.0, 1.0];
-        for axis in [0, 2] {
-            for side in [-limit, limit] {
-                for u in [-self.aspect, 0.0, self.aspect] {
-                    // eye.y·(f + r·u + w·v) = −(side − eye)·(f.y + w.y·v), linear in v.
-                    let across = side - self.eye[axis];
-                    let constant =
-                        self.eye.y * (self.forward[axis] + self.right[axis] * u) + across * self.forward.y;
-                    let slope = self.eye.y * self.up[axis] + across * self.up.y;
-                    let v = -constant / slope;
-                    // A slope of zero gives no number in range.
-                    if v > -1.0 && v < 1.0 {
-                        found.push(v);
-                    }
+        for (i, a) in edges.iter().enumerate() {
+            for b in &edges[..i] {
+                // Parallel lines give no number in range.
+                let v = (b.x * a.constant - a.x * b.constant) / (a.x * b.y - b.x * a.y);
+                if v > -1.0 && v < 1.0 {
+                    found.push(v);
                 }
             }
         }
@@ -144,28 +164,26 @@ impl Seen {
         found
     }
 
-    fn at(&self, (point, step): (DVec3, DVec3), u: f64) -> f64 {
-        let place = point + step * u;
+    /// Radiance at a place that shows the plane.
+    fn at(&self, u: f64, v: f64) -> f64 {
+        let ray = self.forward + self.right * u + self.up * v;
+        let place = self.eye + ray * (self.eye.y / -ray.y);
         (self.radiance)(place.x, place.z)
     }
 
     fn over_area(&self) -> f64 {
-        let of_row = |v: f64| {
-            let row = self.row(v);
-            let lit = row.and_then(|row| Some((row, self.lit(row)?)));
-            lit.map_or(0.0, |(row, (from, to))| integral(from, to, |u| self.at(row, u)))
-        };
-        let whole: f64 = self.breaks().windows(2).map(|ends| integral(ends[0], ends[1], of_row)).sum();
+        let of_row = |v: f64| self.lit(v).map_or(0.0, |(from, to)| integral(from, to, |u| self.at(u, v)));
+        let whole: f64 = self.corners().windows(2).map(|ends| integral(ends[0], ends[1], of_row)).sum();
         whole / (4.0 * self.aspect)
     }
 
     fn over_centres(&self, width: usize, height: usize) -> f64 {
-        let centre = |i: usize, n: usize| (2 * i + 1) as f64 / height as f64 - n as f64 / height as f64;
+        let centre = |i: usize, n: usize| (2.0 * i as f64 + 1.0 - n as f64) / height as f64;
         let of_row = |j: usize| {
-            let lit = self.row(centre(j, height)).and_then(|row| Some((row, self.lit(row)?)));
-            let Some((row, (from, to))) = lit else { return 0.0 };
+            let v = centre(j, height);
+            let Some((from, to)) = self.lit(v) else { return 0.0 };
             let places = (0..width).map(|i| centre(i, width)).filter(|u| (from..=to).contains(u));
-            places.map(|u| self.at(row, u)).sum::<f64>()
+            places.map(|u| self.at(u, v)).sum::<f64>()
         };
         (0..height).map(of_row).sum::<f64>() / (width * height) as f64
     }

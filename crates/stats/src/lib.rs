@@ -69,4 +69,4 @@ pub use proportion::{Rate, clustered_rate, proportion_interval, rate_standard_er
 pub use share::ReferenceShare;
 pub use slope::{Slope, slope};
 pub use student::{TTable, normal_quantile, normal_two_sided_p, t_quantile, t_two_sided_p};
-pub use verdict::{Evidence, Judged, Needed, Region, Verdict, Verdicts, judge};
+pub use verdict::{Evidence, Judged, Needed, Region, Verdict, Verdicts, judge, needed_beside};

@@ -12,6 +12,8 @@ pub struct Effect {
     pub interval: Interval,
     /// Whether it is a ratio.
     pub is_ratio: bool,
+    /// What the reference contributes to its standard error, of a ratio on its logarithm: all replicates share it.
+    pub common: f64,
     /// Two-sided p-value of "no difference" by Student's t; 1 with fewer than two pairs.
     pub p: f64,
     /// Replicates in which at least one of the two is there but not finite: left out like missing ones.
@@ -92,6 +94,7 @@ pub(crate) fn effect(values: &[f64], common: f64, level: Level) -> Option<Effect
         return Some(Effect {
             interval: Interval::point(mean, level),
             is_ratio: false,
+            common,
             p: 1.0,
             not_finite: 0,
         });
@@ -104,7 +107,7 @@ pub(crate) fn effect(values: &[f64], common: f64, level: Level) -> Option<Effect
         (false, false) => 0.0,
     };
     let interval = Interval::symmetric(mean, se, level, Some(degrees), n as u32);
-    Some(Effect { interval, is_ratio: false, p, not_finite: 0 })
+    Some(Effect { interval, is_ratio: false, common, p, not_finite: 0 })
 }
 
 #[cfg(test)]

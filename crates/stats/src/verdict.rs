@@ -13,7 +13,7 @@ mod word;
 
 pub use evidence::Evidence;
 pub use judge::{Judged, judge};
-pub use needed::Needed;
+pub use needed::{Needed, needed_beside};
 pub use region::Region;
 pub use verdicts::Verdicts;
 pub use word::Verdict;

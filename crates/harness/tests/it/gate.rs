@@ -112,6 +112,38 @@ fn a_cell_that_does_not_run_any_more_is_worse_and_one_that_is_new_is_not_looked_
 }
 
 #[test]
+fn a_part_of_the_old_version_speaks_for_nothing() {
+    let place = Place::new();
+    let [old, new] = two(&place);
+    let path = old.join("results.jsonl");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    // As a copy that ended in the middle of a line.
+    let kept = lines[..lines.len() - 3].join("\n") + "\n" + &lines[lines.len() - 3][..40];
+    std::fs::write(&path, kept).unwrap();
+    let told = gate(&old, &new, Some("mse"), TERMS).unwrap_err();
+    assert!(matches!(told, GateFailure::Unfinished { missing: 3, planned: 8, .. }), "{told:?}");
+    std::fs::remove_file(old.join("plan.jsonl")).unwrap();
+    let told = refused(&old, &new);
+    assert!(told.contains("the old version is not finished, it lacks cells of `mc` on `steps`"), "{told}");
+    assert!(gate(&new, &new, Some("mse"), TERMS).is_ok());
+}
+
+#[test]
+fn a_cell_that_lost_its_number_is_worse() {
+    let place = Place::new();
+    let [old, new] = two(&place);
+    change(&new, |record| {
+        if record.label == "blur" && record.spp == 16 {
+            record.metrics.insert("mse".into(), None);
+        }
+    });
+    let found = passed(&old, &new);
+    assert_eq!((found.overall, found.broken.len()), (Overall::Worse, 1));
+    assert!(found.broken[0].reason.contains("no mse"), "{found:?}");
+}
+
+#[test]
 fn other_inputs_are_refused_by_name() {
     let place = Place::new();
     let [old, new] = two(&place);

@@ -26,3 +26,11 @@ pub fn assert_same_bits(
         }
     }
 }
+
+/// Holds what plain code gives to the hash (FNV-1a) of what it gave on x86-64: on other processors it is the same.
+pub fn assert_bits_of_every_processor(run: impl Fn(InstructionSet) -> Vec<u32>, expected: u64) {
+    let bytes = run(InstructionSet::Portable).into_iter().flat_map(u32::to_le_bytes);
+    let found = bytes
+        .fold(0xcbf2_9ce4_8422_2325u64, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3));
+    assert_eq!(found, expected, "{found:#018x}");
+}

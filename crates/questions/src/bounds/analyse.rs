@@ -57,6 +57,7 @@ fn claim_of(scene: &SceneContext, bound: &BoundSummary, counts: &[&BoundCount], 
         region: Some(Region::bound(bound.alpha)),
         common: 0.0,
         trials: Some(counts.iter().map(|c| c.total).sum::<u64>() / 3),
+        replicates_per_value: 1,
     };
     push(summary, claim);
 }

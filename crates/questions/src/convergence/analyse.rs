@@ -42,6 +42,7 @@ fn claim(slope: &SlopeSummary, summary: &mut Summary) {
         region: Some(region),
         common: slope.reference_se,
         trials: None,
+        replicates_per_value: 1,
     };
     push(summary, claim);
 }

@@ -96,7 +96,7 @@ pub(super) fn claims(
             Claim {
                 id: id(row, part, label),
                 sentence: format!(
-                    "Student's {} intervals cover as often among {}",
+                    "Student's {} intervals cover as often as they say among {}",
                     format::percent_short(row.confidence),
                     part.name()
                 ),
@@ -106,6 +106,7 @@ pub(super) fn claims(
                 region: Some(region),
                 common: 0.0,
                 trials: Some(trials),
+                replicates_per_value: 1,
             },
         );
     }

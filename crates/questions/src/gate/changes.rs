@@ -51,7 +51,7 @@ pub(super) fn changes(old: Version<'_>, new: Version<'_>, metric: &str) -> Chang
             continue;
         }
         let [before, after] = [of(old, key), of(new, key)];
-        let (pairs, broken, more) = pairs(&before, &after);
+        let (pairs, broken, more) = pairs(&before, &after, metric);
         let name = || (first.scene.clone(), first.spp, first.label.clone());
         out.broken.extend(broken.map(|reason| {
             let (scene, spp, label) = name();
@@ -98,7 +98,9 @@ fn of<'a>(version: Version<'a>, (scene, spp, label): (&str, u32, &str)) -> BTree
 fn pairs<'a>(
     old: &BTreeMap<u32, &'a Record>,
     new: &BTreeMap<u32, &'a Record>,
+    metric: &str,
 ) -> (Vec<(&'a Record, &'a Record)>, Option<String>, usize) {
+    let has = |record: &Record, metric: &str| record.metrics.get(metric).is_some_and(Option::is_some);
     let (mut pairs, mut broken, mut more) = (Vec::new(), None, 0);
     for (replicate, after) in new {
         let before = old.get(replicate).filter(|before| before.outcome == Outcome::Done);
@@ -110,6 +112,9 @@ fn pairs<'a>(
                     .get_or_insert_with(|| format!("output is no number at {lost} pixels where it was one"));
             }
             (Some(before), Outcome::Done) if before.pixels < after.pixels => more += 1,
+            (Some(before), Outcome::Done) if has(before, metric) && !has(after, metric) => {
+                broken.get_or_insert_with(|| format!("has no {metric} where it had one"));
+            }
             (Some(before), Outcome::Done) => pairs.push((*before, *after)),
             (Some(_), Outcome::Skipped { reason }) => {
                 broken.get_or_insert_with(|| format!("does not run any more: {reason}"));

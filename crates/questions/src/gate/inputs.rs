@@ -32,6 +32,15 @@ pub enum Mismatch {
         /// Level and replicate of each.
         cells: Cells,
     },
+    /// Levels and replicates of a row that the old version lacks, although it has the row, the scene and such cells.
+    OldLacks {
+        /// Label of the row.
+        label: String,
+        /// Scene id.
+        scene: String,
+        /// Level and replicate of each.
+        cells: Cells,
+    },
     /// The references of a scene differ, or nobody knows what they are.
     Reference(String),
     /// The measuring of a scene's cells differs, or nobody knows what it was.
@@ -56,6 +65,13 @@ impl fmt::Display for Mismatch {
             Self::NoRow { label, scene } => write!(f, "the new version has no row `{label}` on `{scene}`"),
             Self::NoCells { label, scene, cells } => {
                 write!(f, "the new version lacks cells of `{label}` on `{scene}`: {}", list(cells))
+            }
+            Self::OldLacks { label, scene, cells } => {
+                write!(
+                    f,
+                    "the old version is not finished, it lacks cells of `{label}` on `{scene}`: {}",
+                    list(cells)
+                )
             }
             Self::Reference(scene) => {
                 write!(f, "the references of `{scene}` differ, or are not known to be the same")
@@ -141,6 +157,7 @@ pub(super) fn mismatches(old: Version<'_>, new: Version<'_>) -> Vec<Mismatch> {
             Mismatch::NoRow { label, scene }
         });
     }
+    out.extend(unfinished(old, new));
     out.extend(frames.into_iter().map(|((label, scene, known), cells)| Mismatch::Frames {
         label: label.to_owned(),
         scene: scene.to_owned(),
@@ -148,6 +165,30 @@ pub(super) fn mismatches(old: Version<'_>, new: Version<'_>) -> Vec<Mismatch> {
         known,
     }));
     out.into_iter().collect()
+}
+
+/// Cells that the new version has and that belong to what the old one set out to do: of its rows and its scenes, at a level
+/// and a replicate that it has somewhere. Without them it was stopped, or lost them, and what is left speaks for a part alone.
+fn unfinished(old: Version<'_>, new: Version<'_>) -> Vec<Mismatch> {
+    let of_old: BTreeSet<Place<'_>> = old.records.iter().map(place).collect();
+    let rows: BTreeSet<&str> = old.context.methods.iter().map(|row| row.summary.label.as_str()).collect();
+    let scenes: BTreeSet<&str> = old.context.scenes.iter().map(|scene| scene.id.as_str()).collect();
+    let cells: BTreeSet<(u32, u32)> = old.records.iter().map(|r| (r.spp, r.replicate)).collect();
+    let mut missing: BTreeMap<(&str, &str), Cells> = BTreeMap::new();
+    for record in new.records.iter().filter(|record| record.outcome == Outcome::Done) {
+        let (scene, label, cell) =
+            (record.scene.as_str(), record.label.as_str(), (record.spp, record.replicate));
+        let its_own = rows.contains(label) && scenes.contains(scene) && cells.contains(&cell);
+        if its_own && !of_old.contains(&place(record)) {
+            missing.entry((label, scene)).or_default().push(cell);
+        }
+    }
+    let lacks = |((label, scene), cells): ((&str, &str), Cells)| Mismatch::OldLacks {
+        label: label.to_owned(),
+        scene: scene.to_owned(),
+        cells,
+    };
+    missing.into_iter().map(lacks).collect()
 }
 
 /// What tells that two frames are the same: their keys, or for records of earlier programs, which do not have them, the

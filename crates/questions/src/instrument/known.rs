@@ -29,6 +29,8 @@ const Q: f64 = 0.02;
 /// Most samples per pixel: the faults that more of them hide show with few.
 const MOST_SPP: u32 = 64;
 const REPLICATES: u32 = 4;
+/// Confidences of the intervals that are checked at least.
+const CONFIDENCES: [f64; 3] = [0.95, 0.99, 0.998];
 /// Samples of the furnace's reference: its image is known without, and the noise of a reference counts in every check.
 const REFERENCE_SPP: u32 = 16 * Reference::LEAST_PARTS as u32;
 
@@ -74,7 +76,10 @@ pub fn self_check_study(of: &Study, unbiased: &[String]) -> Result<Study, Synthe
     study.reference.spp = REFERENCE_SPP;
     (study.width, study.height) = SELF_CHECK_SIZE;
     study.seed = of.seed;
-    study.coverage.clone_from(&of.coverage);
+    // Whatever the study asks, intervals are checked where faults show: see the table of faults in the methodology.
+    study.coverage = CONFIDENCES.into_iter().chain(of.coverage.iter().copied()).collect();
+    study.coverage.sort_unstable_by(f64::total_cmp);
+    study.coverage.dedup();
     study.timing = Timing { warmup: 0, runs: 1 };
     study.viewer_spp = Vec::new();
     Ok(study)

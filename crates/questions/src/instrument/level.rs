@@ -15,15 +15,23 @@ use crate::cell::{Measure, MeasureError};
 use crate::level::{LevelCell, LevelFound, LevelFrame};
 
 pub(super) fn measure(level: &LevelCell<'_>, found: &mut LevelFound) -> Result<(), MeasureError> {
+    if level.frames.is_empty() {
+        return Ok(());
+    }
     let measures: Vec<Measure<'_>> = level.measures().collect();
     let mut checks = Vec::new();
-    checks.extend(halves(level, &measures)?);
-    checks.extend(bright(level, &measures)?);
+    let missing = |kind, reason| silent(level, kind, reason);
+    checks.push(match halves(level, &measures)? {
+        Some(check) => check,
+        None => missing(CheckKind::Halves, why_no_halves(level)),
+    });
+    checks.push(match bright(level, &measures)? {
+        Some(check) => check,
+        None => missing(CheckKind::Brightness, "no frame that should be as bright states its variance"),
+    });
     checks.extend(dependent(level)?);
     checks.extend(closed_form(level));
-    if !checks.is_empty() {
-        answers::keep(&mut found.answers, ID, &checks);
-    }
+    answers::keep(&mut found.answers, ID, &checks);
     Ok(())
 }
 
@@ -35,6 +43,24 @@ fn record(level: &LevelCell<'_>, kind: CheckKind, what: &str) -> CheckRecord {
         spp: Some(level.spp),
         found: None,
         note: String::new(),
+    }
+}
+
+/// A check that was not made, with the reason: no evidence is not told as no fault.
+fn silent(level: &LevelCell<'_>, kind: CheckKind, reason: &str) -> CheckRecord {
+    CheckRecord { note: format!("not made: {reason}"), ..record(level, kind, kind.name()) }
+}
+
+fn why_no_halves(level: &LevelCell<'_>) -> &'static str {
+    let of_rounds = |f: &LevelFrame| f.frame.provenance.rounds.is_some();
+    if level.frames.iter().all(of_rounds) {
+        "samples were placed by what earlier ones found"
+    } else if level.frames.iter().all(|f| f.frame.sampling != Sampling::Independent) {
+        "samples are not independent, and neither are their halves"
+    } else if level.frames.iter().all(|f| f.frame.color.halves.is_none()) {
+        "frames have no half buffers"
+    } else {
+        "frames state no variance"
     }
 }
 
@@ -160,7 +186,7 @@ fn closed_form(level: &LevelCell<'_>) -> Option<CheckRecord> {
         count += (mean.pixels() * mean.channels()) as f64;
     }
     if count == 0.0 || !sum.is_finite() {
-        return None;
+        return Some(silent(level, CheckKind::ClosedForm, "a value of a frame is not finite"));
     }
     let value = sum / count;
     let standard_error = (variance.sqrt() / count).hypot(ROUNDING * expected.abs()).max(f64::MIN_POSITIVE);

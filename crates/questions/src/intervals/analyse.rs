@@ -117,8 +117,8 @@ fn claim(
     let Some(family) = family(id) else { return };
     let shown = format::percent_short(confidence);
     let (region, often) = match family.at_least() {
-        true => (Region::guarantee(confidence), "at least as often"),
-        false => (Region::coverage(confidence), "as often"),
+        true => (Region::guarantee(confidence), "at least as often as they say"),
+        false => (Region::coverage(confidence), "as often as they say"),
     };
     let claim = Claim {
         id: id_of(&scene.id, spp, label, id, confidence),
@@ -132,6 +132,7 @@ fn claim(
         region: Some(region),
         common: 0.0,
         trials: Some(trials),
+        replicates_per_value: 1,
     };
     push(summary, claim);
 }

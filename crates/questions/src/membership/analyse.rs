@@ -103,6 +103,7 @@ fn claim(label: &str, found: &Finding, summary: &mut Summary) {
         region: Some(Region { low: 1.0 - high, high: 1.0 - low }),
         common: 0.0,
         trials: None,
+        replicates_per_value: 2, // of a pair
     };
     push(summary, claim);
 }

@@ -32,16 +32,14 @@ pub(super) fn id(scene: &str, spp: u32, label: &str) -> ClaimId {
 /// estimate is not positive: an estimate below zero is no less wrong than one that is too small.
 pub(crate) fn claim(estimate: &EstimateSummary) -> Claim {
     let measured = &estimate.measured;
-    let common = estimate.reference_se;
-    let (scale, region, common) = if estimate.is_ratio {
-        // A ratio has positive parts.
-        (Scale::Ratio, Some(Region::ESTIMATE), common / measured.value)
+    let (scale, region) = if estimate.is_ratio {
+        (Scale::Ratio, Some(Region::ESTIMATE))
     } else {
         let Region { low, high } = Region::ESTIMATE;
         let about = |m: f64| Region { low: (low - 1.0) * m, high: (high - 1.0) * m };
         // Nothing can be judged where the measured error is not sure to be above 0.
         let sure = measured.low.is_some_and(|low| low > 0.0);
-        (Scale::Number, sure.then(|| about(measured.value)), common)
+        (Scale::Number, sure.then(|| about(measured.value)))
     };
     Claim {
         id: id(&estimate.scene, estimate.spp, &estimate.label),
@@ -50,8 +48,9 @@ pub(crate) fn claim(estimate: &EstimateSummary) -> Claim {
         uncorrected: None,
         scale,
         region,
-        common,
+        common: estimate.common,
         trials: None,
+        replicates_per_value: 1,
     }
 }
 
@@ -133,7 +132,7 @@ fn one(scene: &str, spp: u32, label: &str, class: &str, records: &[&Record]) -> 
         measured: mean(&measured, reference)?,
         effect: interval,
         is_ratio: effect.is_ratio,
-        reference_se: reference,
+        common: effect.common,
         deciles: (0..bins).filter_map(bin).collect(),
         non_finite: found.iter().map(|(check, _)| check.non_finite).sum(),
     })

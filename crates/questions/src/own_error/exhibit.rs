@@ -11,8 +11,8 @@ use crate::section::section;
 use crate::view::View;
 
 const NOTE: &str = "Mean over the image of the squared error that a method says it has, beside the mean that was measured with the \
-    reference's noise taken out. A ratio below 1 is too optimistic, above 1 too pessimistic; calibrated means that the interval \
-    contains 1. Where a mean is not positive, which an unbiased estimate may be, the difference stands instead. Plots: one point per \
+    reference's noise taken out. A ratio below 1 is too optimistic, above 1 too pessimistic; claimed is that its \
+    interval lies within 0.8 to 1.25. Where a mean is not positive, which an unbiased estimate may be, the difference stands instead. Plots: one point per \
     tenth of the pixel-channels by rank of the estimate. An estimate that is noisy itself spreads wider than the error it estimates: \
     its lowest tenths are too low and its highest too high even if the mean is right.";
 

@@ -38,6 +38,7 @@ fn claim(result: &PaperResult, summary: &mut Summary) {
         region,
         common: 0.0,
         trials: None,
+        replicates_per_value: 1,
     };
     push(summary, claim);
 }

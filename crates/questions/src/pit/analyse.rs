@@ -11,6 +11,9 @@ use crate::answers;
 use crate::claims::{Claim, push};
 use crate::records::{Index, LEVEL, told};
 
+/// Share of transforms beyond which nothing is claimed of them.
+const MOST_DRAWN: f64 = 0.1;
+
 /// All levels, with the bands that they are held against.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Findings {
@@ -70,7 +73,10 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
                 bands.extend(band(finding.values).map(|band| (finding.values, band)));
             }
             if let Some(band) = bands.get(&finding.values) {
-                push(summary, claim(&finding, band, label));
+                // Of constant pixels the transform is drawn: where those are many, it is uniform for no reason.
+                if finding.constant <= MOST_DRAWN {
+                    push(summary, claim(&finding, band, label));
+                }
                 found.levels.push(finding);
             }
         }
@@ -129,6 +135,7 @@ fn claim(found: &Finding, band: &Band, label: &str) -> Claim {
         region: Some(Region { low: 0.0, high: band.half_width() }),
         common: 0.0,
         trials: None,
+        replicates_per_value: 1,
     }
 }
 

@@ -123,6 +123,7 @@ fn claim(found: &Finding, label: &str, pixels: u64) -> Claim {
         region: Some(Region::coverage(found.confidence)),
         common: 0.0,
         trials: Some(pixels),
+        replicates_per_value: 1,
     }
 }
 

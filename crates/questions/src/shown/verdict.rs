@@ -67,14 +67,20 @@ pub(crate) fn probability(p: f64) -> String {
 
 /// What would change a verdict, in words.
 pub(crate) fn changed_by(claim: &ClaimSummary) -> String {
+    let needed = needed(claim.needed);
     if claim.alone == Verdict::Refuted && claim.verdict == Verdict::NotShown {
-        return "refuted alone, but one of so many may be by chance: more replicates".into();
+        return super::joined(&["refuted alone, but one of so many may be by chance", &needed], "; ");
     }
-    match claim.needed {
+    needed
+}
+
+fn needed(needed: Needed) -> String {
+    match needed {
         Needed::Nothing => String::new(),
         Needed::Interval => "needs a second replicate".into(),
         Needed::Replicates(count) => format!("needs about {count} replicates if the estimate stays"),
         Needed::Reference => "needs a longer reference".into(),
+        Needed::Ratio => "cannot be judged: no positive ratio".into(),
         Needed::TooMany => {
             "at the edge of what is claimed: no number of replicates that anybody renders".into()
         }

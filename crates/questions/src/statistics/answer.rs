@@ -43,7 +43,7 @@ fn family(view: &View<'_>) -> Option<String> {
     let all = || claims.iter();
     let family = view.summary.family;
     Some(format!(
-        "Of {}, {}. Each taken alone, {} would be refuted; {} by chance if all held.",
+        "Of {}, {}. Each taken alone, {} would be refuted; at most {} by chance if all held.",
         format::plural(claims.len(), "claim"),
         counted(all()),
         family.refuted_alone,
@@ -71,7 +71,7 @@ fn coverage(view: &View<'_>) -> Option<String> {
     };
     let worst = claims().max_by(|a, b| far(a).total_cmp(&far(b)))?;
     Some(format!(
-        "Intervals of the input: {}; farthest off, {} of {} ({}{}).",
+        "Intervals of the input: {}; farthest off, {} cover where {} should ({}{}).",
         counted(claims()),
         shown::number(Scale::Share, worst.effect.value),
         worst.id.what,
@@ -140,7 +140,9 @@ fn cause(view: &View<'_>, broken: &[&BoundSummary], worst: &BoundSummary) -> Opt
     let ratio = |b: &BoundSummary| view.cell(&b.scene, b.spp, &b.label)?.enclosure_worst_ratio;
     let held = |b: &&BoundSummary| ratio(b).is_some_and(|ratio| ratio <= 1.0);
     let nowhere_else = view.summary.cells.iter().filter_map(|c| c.enclosure_worst_ratio).all(|r| r <= 1.0);
-    if !(nowhere_else && broken.iter().all(held)) {
+    // Of an instrument with a fault nothing is concluded.
+    let trusted = crate::failed_checks(view.summary).is_empty();
+    if !(trusted && nowhere_else && broken.iter().all(held)) {
         return None;
     }
     let missed = match worst.missed > 0.0 {

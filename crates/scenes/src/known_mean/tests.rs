@@ -30,20 +30,50 @@ fn a_finer_rule_gives_the_same() {
     for (id, scene, radiance) in
         [("direct", direct(), under_panel as fn(f64, f64) -> f64), ("gradient", gradient(), under_ball)]
     {
-        let seen = Seen::new(&scene, 4, 3, radiance);
-        // Halves of the image, each by the whole rule.
+        let seen = Seen::new(&scene, 4.0 / 3.0, radiance);
+        // Unequal halves of rows and of columns, each by the whole rule.
         let of_row = |v: f64| {
-            let lit = seen.row(v).and_then(|row| Some((row, seen.lit(row)?)));
-            let Some((row, (from, to))) = lit else { return 0.0 };
+            let Some((from, to)) = seen.lit(v) else { return 0.0 };
             let middle = from + 0.4 * (to - from);
-            integral(from, middle, |u| seen.at(row, u)) + integral(middle, to, |u| seen.at(row, u))
+            integral(from, middle, |u| seen.at(u, v)) + integral(middle, to, |u| seen.at(u, v))
         };
         let halves = |ends: &[f64]| {
             let middle = ends[0] + 0.3 * (ends[1] - ends[0]);
             integral(ends[0], middle, of_row) + integral(middle, ends[1], of_row)
         };
-        let fine = seen.breaks().windows(2).map(halves).sum::<f64>() / (4.0 * seen.aspect);
-        assert!((fine / area(id, 4, 3) - 1.0).abs() < 1e-8, "{id}: {fine}");
+        let fine = seen.corners().windows(2).map(halves).sum::<f64>() / (4.0 * seen.aspect);
+        assert!((fine / area(id, 4, 3) - 1.0).abs() < 1e-7, "{id}: {fine}");
+    }
+}
+
+#[test]
+fn a_mean_over_pixels_of_plain_rays_is_the_same() {
+    // Ray by ray, as a renderer without anything clever has it. The camera of `direct` is rolled.
+    let (width, height) = (400, 300);
+    for (id, scene, radiance) in
+        [("direct", direct(), under_panel as fn(f64, f64) -> f64), ("gradient", gradient(), under_ball)]
+    {
+        let camera = &scene.camera;
+        let forward = (camera.target - camera.eye).as_dvec3().normalize();
+        let right = forward.cross(camera.up.as_dvec3()).normalize();
+        let up = right.cross(forward);
+        let half = (0.5 * f64::from(camera.vertical_fov_degrees)).to_radians().tan();
+        let mut sum = 0.0;
+        for j in 0..height {
+            for i in 0..width {
+                let x = (f64::from(i) + 0.5) / f64::from(width) * 2.0 - 1.0;
+                let y = 1.0 - (f64::from(j) + 0.5) / f64::from(height) * 2.0;
+                let ray = forward + right * (x * half * 4.0 / 3.0) + up * (y * half);
+                let hit = camera.eye.as_dvec3() - ray * (f64::from(camera.eye.y) / ray.y);
+                if ray.y < 0.0 && hit.x.abs() <= 5.0 && hit.z.abs() <= 5.0 {
+                    sum += radiance(hit.x, hit.z);
+                }
+            }
+        }
+        let mean = sum / f64::from(width * height);
+        let centres = closed_form(id, 2, Rays::Centres, (400, 300)).expect("a formula");
+        assert!((mean / centres - 1.0).abs() < 1e-9, "{id}: {mean}, {centres}");
+        assert!((mean / area(id, 4, 3) - 1.0).abs() < 1e-3, "{id}: {mean}");
     }
 }
 

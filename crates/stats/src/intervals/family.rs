@@ -34,7 +34,8 @@ pub trait IntervalFamily: std::fmt::Debug + Send + Sync {
         true
     }
 
-    /// Whether it promises to cover at least as often as its level says, instead of as often.
+    /// Whether it promises to cover at least as often as its level says, instead of as often: a limit on one side. Being wide
+    /// without a theorem is no such promise.
     fn at_least(&self) -> bool {
         false
     }

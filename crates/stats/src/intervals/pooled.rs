@@ -27,10 +27,6 @@ impl IntervalFamily for PooledT {
         "none: a heuristic, no theorem gives its level"
     }
 
-    fn at_least(&self) -> bool {
-        true
-    }
-
     fn needs(&self) -> &'static [IntervalNeed] {
         &[IntervalNeed::Neighbours]
     }

@@ -39,10 +39,6 @@ impl IntervalFamily for RareEventT {
         "none: its bound of the samples is taken from the data"
     }
 
-    fn at_least(&self) -> bool {
-        true
-    }
-
     fn needs(&self) -> &'static [IntervalNeed] {
         &[IntervalNeed::Extremes, IntervalNeed::Neighbours]
     }

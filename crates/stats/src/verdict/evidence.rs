@@ -12,7 +12,7 @@ pub struct Evidence {
     pub standard_error: f64,
     /// Part of the standard error that more replicates do not take away, such as the reference's.
     pub common: f64,
-    /// Replicates; below 2 the standard error is from within one image.
+    /// Replicates; below 2 the standard error is from within one image, and nothing is judged by it.
     pub replicates: u32,
     /// Independent trials, for a rate: they say something where all replicates show the same rate of 0 or 1.
     pub trials: Option<u64>,

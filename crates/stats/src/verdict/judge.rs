@@ -17,8 +17,9 @@ pub struct Judged {
 /// Judges one claim by itself.
 #[must_use]
 pub fn judge(effect: &Evidence, region: Region) -> Judged {
-    let Some(ends) = effect.ends.filter(|ends| ends.iter().chain(&effect.estimate).all(|v| v.is_finite()))
-    else {
+    let finite = |ends: &[f64; 2]| ends.iter().chain(&effect.estimate).all(|v| v.is_finite());
+    // One image says nothing of other random seeds, whatever its own spread.
+    let Some(ends) = effect.ends.filter(|ends| effect.replicates >= 2 && finite(ends)) else {
         return Judged { alone: Verdict::NotShown, p: None, needed: Needed::Interval };
     };
     let alone = if region.holds(ends) {
@@ -54,6 +55,13 @@ mod tests {
         assert_eq!(of(&[0.999, 1.0, 0.998, 1.0]), Verdict::Refuted, "too wide an interval is none of 95 %");
         assert_eq!(of(&[0.93, 0.96, 0.95, 0.95]), Verdict::NotShown);
         assert_eq!(of(&[0.95]), Verdict::NotShown, "one number without an interval");
+        let within = Interval::symmetric(0.5, 1e-6, Level::TWO_SIDED_95, None, 1);
+        let judged = judge(&Evidence::of(&within, 0.0), region);
+        assert_eq!(
+            (judged.alone, judged.p, judged.needed),
+            (Verdict::NotShown, None, Needed::Interval),
+            "an interval from within one image"
+        );
         assert_eq!(of(&[1.0; 4]), Verdict::Refuted);
     }
 

@@ -2,7 +2,7 @@ use serde::{Deserialize, Serialize};
 
 use super::evidence::Evidence;
 use super::region::Region;
-use crate::normal_quantile;
+use crate::{Level, normal_quantile};
 
 /// What would decide a claim that is not shown, if the estimate stays where it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -10,7 +10,7 @@ use crate::normal_quantile;
 pub enum Needed {
     /// It is decided.
     Nothing,
-    /// An interval: a second replicate.
+    /// An interval over replicates: a second one.
     Interval,
     /// So many replicates.
     Replicates(u32),
@@ -18,10 +18,21 @@ pub enum Needed {
     Reference,
     /// More replicates than anybody renders: the estimate lies at the edge of the region.
     TooMany,
+    /// Another estimate: this one is no positive ratio, which is what is claimed of it.
+    Ratio,
 }
 
 /// Beyond this nobody goes.
 const MOST: u32 = 10_000;
+
+/// What would let a refutation stand beside other claims that multiply its p-value by `multiplier` (Holm 1979), which is at
+/// least 1.
+#[must_use]
+pub fn needed_beside(effect: &Evidence, region: Region, multiplier: f64) -> Needed {
+    // α is in (0, 1), and so is a part of it.
+    let level = Level::two_sided(1.0 - effect.level.alpha() / multiplier.max(1.0)).unwrap_or(effect.level);
+    needed(&Evidence { level, ..*effect }, region)
+}
 
 /// The replicates at which the interval is as wide as the margin: t·√(s²/R + common²), s² what replicates add.
 pub(super) fn needed(effect: &Evidence, region: Region) -> Needed {
@@ -31,6 +42,9 @@ pub(super) fn needed(effect: &Evidence, region: Region) -> Needed {
     }
     if normal_quantile(effect.level) * effect.common > margin {
         return Needed::Reference;
+    }
+    if let Some(trials) = effect.trials.filter(|trials| *trials > 0 && effect.standard_error == 0.0) {
+        return needed_trials(effect, margin, trials);
     }
     // At least 0: the common part is one of the two whose squares make the standard error.
     let own = (effect.standard_error.powi(2) - effect.common.powi(2)).max(0.0) * f64::from(effect.replicates);
@@ -50,10 +64,54 @@ pub(super) fn needed(effect: &Evidence, region: Region) -> Needed {
     Needed::Replicates(enough)
 }
 
+/// Of a rate that is 0 or 1 in all replicates: as many as have the trials whose exact limit is the margin,
+/// (1−margin)^trials = α/2.
+fn needed_trials(effect: &Evidence, margin: f64, trials: u64) -> Needed {
+    if margin <= 0.0 {
+        return Needed::TooMany;
+    }
+    if margin >= 1.0 {
+        return Needed::Replicates(effect.replicates + 1);
+    }
+    let enough = (0.5 * effect.level.alpha()).ln() / (-margin).ln_1p();
+    let replicates = (enough * f64::from(effect.replicates) / trials as f64).ceil();
+    if replicates > f64::from(MOST) {
+        return Needed::TooMany;
+    }
+    Needed::Replicates((replicates as u32).max(effect.replicates + 1))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Level, replicate_interval, t_quantile};
+    use crate::{proportion_interval, replicate_interval, t_quantile};
+
+    #[test]
+    fn rates_that_agree_need_as_many_trials_as_their_exact_limit_says() {
+        let interval = proportion_interval(&[1.0; 4], 20, Level::TWO_SIDED_95).unwrap();
+        let effect = Evidence::of(&interval, 0.0).with_trials(20);
+        // 0.955^n ≤ 0.025 from 81 on: at 5 a replicate, 17 replicates.
+        let region = Region { low: 0.945, high: 0.955 };
+        assert_eq!(needed(&effect, region), Needed::Replicates(17));
+        assert_eq!(needed(&effect, Region { low: 0.5, high: 1.0 }), Needed::TooMany, "at the very edge");
+    }
+
+    #[test]
+    fn a_refutation_needs_more_replicates_the_more_claims_stand_beside_it() {
+        let interval = replicate_interval(&[0.9, 1.1, 1.05, 0.95], 0.0, Level::TWO_SIDED_95).unwrap();
+        let (effect, region) = (Evidence::of(&interval, 0.0), Region { low: 1.2, high: 2.0 });
+        let count = |multiplier: f64| match needed_beside(&effect, region, multiplier) {
+            Needed::Replicates(count) => count,
+            other => panic!("{other:?}"),
+        };
+        let spread = interval.standard_error.unwrap() * 2.0;
+        let p = |n: u32| crate::t_two_sided_p(0.2 / (spread / f64::from(n).sqrt()), u64::from(n) - 1);
+        for multiplier in [10.0, 200.0] {
+            let n = count(multiplier);
+            assert!(p(n) * multiplier <= 0.05 && p(n - 1) * multiplier > 0.05, "{multiplier}: {n}");
+        }
+        assert!(count(200.0) > count(10.0));
+    }
 
     #[test]
     fn as_many_replicates_are_needed_as_make_the_interval_as_wide_as_the_margin() {

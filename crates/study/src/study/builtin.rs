@@ -68,6 +68,7 @@ const STUDIES: &[BuiltinStudy] = studies![
     "liu-fig06",
     "liu-ablation",
     "liu-large",
+    "nfor-profiles",
     "geometric-claim",
     "geometric-size",
 ];

@@ -50,6 +50,15 @@ pub struct ClaimSummary {
     pub scale: Scale,
     /// Where the effect must lie; none where it cannot be judged.
     pub region: Option<Region>,
+    /// Part of the standard error that all replicates share, such as the reference's; of a ratio on its logarithm.
+    #[serde(default, skip_serializing_if = "none_shared")]
+    pub common: f64,
+    /// Independent trials behind a share: pixels, whose channels are one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trials: Option<u64>,
+    /// Replicates behind each value of the effect: 2 where a value is of a pair of them.
+    #[serde(default = "one", skip_serializing_if = "is_one")]
+    pub replicates_per_value: u32,
     /// By its own interval.
     pub alone: Verdict,
     /// Beside all other claims of the report: a refutation counts only after Holm's rule.
@@ -60,6 +69,20 @@ pub struct ClaimSummary {
     pub p_adjusted: Option<f64>,
     /// What would decide it.
     pub needed: Needed,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "what serde asks for")]
+fn none_shared(common: &f64) -> bool {
+    *common == 0.0
+}
+
+fn one() -> u32 {
+    1
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "what serde asks for")]
+fn is_one(count: &u32) -> bool {
+    *count == 1
 }
 
 /// All claims of a report together.

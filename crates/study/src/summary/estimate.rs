@@ -29,7 +29,8 @@ pub struct EstimateSummary {
     pub is_ratio: bool,
     /// Standard error that the reference contributes to the measured error.
     #[serde(default)]
-    pub reference_se: f64,
+    /// What the reference contributes to the standard error of the effect; of a ratio on its logarithm.
+    pub common: f64,
     /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
     pub deciles: Vec<EstimateBin>,
     /// Pixel-channels whose estimate is not finite, over all replicates.

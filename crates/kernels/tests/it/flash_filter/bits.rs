@@ -1,7 +1,7 @@
 //! The same bits for every instruction set, tile size and number of threads.
 
 use super::{Case, RULES, Rule};
-use crate::same_bits::{assert_same_bits, levels, on_threads};
+use crate::same_bits::{assert_bits_of_every_processor, assert_same_bits, levels, on_threads};
 use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::inside::flash_filter_in_tiles;
 
@@ -79,4 +79,10 @@ fn the_best_level_is_available_and_used_by_default() {
     let case = Case::random(20, 20, 2, 1, Rule::Joint);
     assert!(levels().any(|level| level == InstructionSet::best()));
     assert_eq!(bits(&case.filter()), bits(&case.filter_at(InstructionSet::best())));
+}
+
+#[test]
+fn bits_are_those_of_every_processor() {
+    let case = Case::random(23, 17, 5, 2, Rule::Joint);
+    assert_bits_of_every_processor(|level| bits(&case.filter_at(level)), 0xcce9_fdbc_edd4_93d3);
 }

@@ -4,7 +4,7 @@ use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::guided::{GuidedParams, filter, filter_at, naive};
 
 use crate::random::Random;
-use crate::same_bits::assert_same_bits;
+use crate::same_bits::{assert_bits_of_every_processor, assert_same_bits};
 
 fn case(width: usize, height: usize, channels: usize, seed: u64) -> (Vec<Vec<f32>>, Vec<Vec<f32>>) {
     let mut random = Random(seed);
@@ -114,17 +114,32 @@ fn a_bright_pixel_is_forgotten_beyond_its_windows() {
     }
 }
 
+fn bits_at(
+    params: &GuidedParams,
+    guide: &[Vec<f32>],
+    targets: &[Vec<f32>],
+    level: InstructionSet,
+) -> Vec<u32> {
+    let out = filter_at(params, &slices(guide), &slices(targets), level).unwrap();
+    out.into_iter().flatten().map(f32::to_bits).collect()
+}
+
 #[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     for (width, height, radius, channels) in [(83, 70, 2, 1), (40, 150, 9, 3)] {
         let (guide, targets) = case(width, height, channels, 11);
         let params = GuidedParams { width, height, radius, epsilon: 1e-3 };
         // One that this machine lacks runs in plain Rust.
-        assert_same_bits(&format!("{width}x{height}"), InstructionSet::ALL, |level| {
-            let out = filter_at(&params, &slices(&guide), &slices(&targets), level).unwrap();
-            out.into_iter().flatten().map(f32::to_bits).collect()
-        });
+        let run = |level| bits_at(&params, &guide, &targets, level);
+        assert_same_bits(&format!("{width}x{height}"), InstructionSet::ALL, run);
     }
+}
+
+#[test]
+fn bits_are_those_of_every_processor() {
+    let (guide, targets) = case(23, 17, 3, 11);
+    let params = GuidedParams { width: 23, height: 17, radius: 4, epsilon: 1e-3 };
+    assert_bits_of_every_processor(|level| bits_at(&params, &guide, &targets, level), 0x1e72_7683_9ed6_ebc0);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::joint_nlm::{JointChannel, JointParams, filter, filter_at, naive};
 
 use crate::random::Random;
-use crate::same_bits::assert_same_bits;
+use crate::same_bits::{assert_bits_of_every_processor, assert_same_bits};
 
 /// Two flat regions and a slope, with noise; some pixels have none.
 struct Case {
@@ -62,14 +62,22 @@ fn the_fast_form_is_the_formula() {
     }
 }
 
+fn bits_at(case: &Case, level: InstructionSet) -> Vec<u32> {
+    let out = filter_at(&case.params, &case.channels(), level).unwrap();
+    out.into_iter().flatten().map(f32::to_bits).collect()
+}
+
 #[test]
 fn every_instruction_set_and_number_of_threads_gives_the_same_bits() {
     let case = Case::new(83, 37, 3, 4);
     // One that this machine lacks runs in plain Rust.
-    assert_same_bits("83x37", InstructionSet::ALL, |level| {
-        let out = filter_at(&case.params, &case.channels(), level).unwrap();
-        out.into_iter().flatten().map(f32::to_bits).collect()
-    });
+    assert_same_bits("83x37", InstructionSet::ALL, |level| bits_at(&case, level));
+}
+
+#[test]
+fn bits_are_those_of_every_processor() {
+    let case = Case::new(23, 17, 3, 4);
+    assert_bits_of_every_processor(|level| bits_at(&case, level), 0x2f34_ddf3_89d2_7c87);
 }
 
 #[test]

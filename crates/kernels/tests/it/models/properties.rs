@@ -4,7 +4,7 @@ use noisefloor_kernels::InstructionSet;
 use noisefloor_kernels::regression::models::{Distances, Field, Planes, Rules, Start, Window, naive::Twin};
 
 use super::Case;
-use crate::same_bits::levels;
+use crate::same_bits::{assert_bits_of_every_processor, levels};
 
 const K: usize = 1;
 
@@ -194,35 +194,39 @@ fn constant_equal_and_differently_scaled_features_change_nothing() {
     }
 }
 
+/// Windows of three sizes with all bandwidths, every number that they hold.
+fn bits_at(field: &Field, level: InstructionSet) -> Vec<u32> {
+    let mut out: Vec<u32> = Vec::new();
+    let mut window = Window::new(field, 15);
+    for (center, radius) in [((20, 15), 15), ((3, 30), 10), ((43, 2), 5)] {
+        window.open(field, center, radius, &Distances::default(), level);
+        out.extend(window.pixels(2));
+        for k in 0..3 {
+            window.weigh(field, k, level);
+            for start in [Start::First, Start::Own] {
+                let sum = window.step(field, k, start, level).to_bits();
+                out.extend([sum as u32, (sum >> 32) as u32]);
+            }
+            window.fit(field, k, false, level);
+            let columns = window.fitted().into_iter().chain(window.value(k)).chain(window.refitted());
+            let columns = columns.chain([window.weights(k), window.variance(k), window.error(k)]);
+            out.extend(columns.flatten().map(|v| v.to_bits()));
+        }
+    }
+    out
+}
+
 #[test]
-fn bits_are_equal_on_every_instruction_set() {
-    for ridge in [1e-3, 0.0] {
+fn bits_are_equal_on_every_instruction_set_and_processor() {
+    for (ridge, expected) in [(1e-3, 0xa636_c94f_41bb_b53f), (0.0, 0xbb93_96a0_fd93_5adc)] {
         let mut case = Case::new(44, 36, 37);
         case.rules.ridge = ridge;
         let field = case.field();
-        let run = |level| {
-            let mut out: Vec<u32> = Vec::new();
-            let mut sums = Vec::new();
-            let mut window = Window::new(&field, 15);
-            for (center, radius) in [((20, 15), 15), ((3, 30), 10), ((43, 2), 5)] {
-                window.open(&field, center, radius, &Distances::default(), level);
-                out.extend(window.pixels(2));
-                for k in 0..3 {
-                    window.weigh(&field, k, level);
-                    sums.push(window.step(&field, k, Start::First, level).to_bits());
-                    sums.push(window.step(&field, k, Start::Own, level).to_bits());
-                    window.fit(&field, k, false, level);
-                    let columns = window.fitted().into_iter().chain(window.value(k)).chain(window.refitted());
-                    let columns = columns.chain([window.weights(k), window.variance(k), window.error(k)]);
-                    out.extend(columns.flatten().map(|v| v.to_bits()));
-                }
-            }
-            (out, sums)
-        };
-        let portable = run(InstructionSet::Portable);
+        let portable = bits_at(&field, InstructionSet::Portable);
         for level in levels() {
-            assert!(run(level) == portable, "{level}");
+            assert!(bits_at(&field, level) == portable, "{level}");
         }
+        assert_bits_of_every_processor(|level| bits_at(&field, level), expected);
     }
 }
 

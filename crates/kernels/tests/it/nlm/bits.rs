@@ -1,7 +1,7 @@
 //! The same bits on every instruction set, with any tile and any number of threads.
 
 use super::*;
-use crate::same_bits::{assert_same_bits, levels, on_threads};
+use crate::same_bits::{assert_bits_of_every_processor, assert_same_bits, levels, on_threads};
 
 fn cases() -> Vec<Case> {
     let both = Case::random(130, 37, 5, &candidates(true), &[3, 1]).with_step(Rule::Exact).with_neighbors(1);
@@ -105,4 +105,10 @@ fn a_level_that_is_missing_is_refused() {
         let error = filter_at(&case.params, &case.passes, &case.inputs(), level).unwrap_err();
         assert_eq!(error, noisefloor_kernels::KernelError::LevelUnavailable { level });
     }
+}
+
+#[test]
+fn bits_are_those_of_every_processor() {
+    let case = Case::random(23, 17, 4, &candidates(true), &[3, 1]).with_step(Rule::Exact);
+    assert_bits_of_every_processor(|level| bits_at(&case, level), 0x59d2_f57b_fc6b_f435);
 }

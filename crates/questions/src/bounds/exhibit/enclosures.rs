@@ -37,6 +37,6 @@ pub(super) fn parts(view: &View<'_>) -> Vec<Part> {
 }
 
 fn cell(ratio: f64) -> TableCell {
-    let (word, tone) = if ratio <= 1.0 { ("held", Tone::Good) } else { ("violated", Tone::Bad) };
+    let (word, tone) = if ratio <= 1.0 { ("held", Tone::Plain) } else { ("violated", Tone::Bad) };
     TableCell::text(format!("{ratio:.6}")).number(Number::exact(ratio)).tag(word, tone, "").tone(tone)
 }

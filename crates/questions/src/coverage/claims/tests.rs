@@ -42,6 +42,7 @@ fn judged(
         region: Some(region),
         common: 0.0,
         trials: Some(trials),
+        replicates_per_value: 1,
     };
     claim.judged()
 }

@@ -61,7 +61,19 @@ fn cell(view: &View<'_>, label: &str, here: &[&CoverageSummary], nominal: f64) -
         format!("; of pixels with s > 0: {}", format::percent_interval(share).line())
     });
     let cell = cell.about(format!("Without the allowance for the reference's noise: {raw}{of_varying}"));
-    if c.class == ALL { shown::judged(cell, view.claim(&id_of(c, label))) } else { cell }
+    if c.class != ALL {
+        return cell;
+    }
+    // What is judged stands beside the verdict.
+    let claim = view.claim(&id_of(c, label));
+    let cell = match claim.zip(c.varying.as_ref()) {
+        Some((_, varying)) if c.constant > 0.0 || c.missed > 0.0 => {
+            let judged = format!("{} where s > 0", format::percent(varying.value));
+            TableCell { aside: shown::joined(&[&cell.aside, &judged], "; "), ..cell }
+        }
+        _ => cell,
+    };
+    shown::judged(cell, claim)
 }
 
 /// The table of all pixels, and behind a line those by class.

@@ -82,7 +82,7 @@ fn estimate(estimated: &[f64], measured: &[f64]) -> EstimateSummary {
         measured: mean(measured),
         effect,
         is_ratio: ratio,
-        reference_se: 0.0,
+        common: 0.0,
         deciles: Vec::new(),
         non_finite: 0,
     }

@@ -56,10 +56,14 @@ fn halves_of_dependent_samples_state_nothing_and_a_missing_half_checks_nothing()
     let scene = scene(NORMAL);
     let mut dependent = scene.render(8, 1);
     dependent.sampling = Sampling::LowDiscrepancy;
-    assert_eq!(kinds(&checks(vec![dependent], &scene.truth(), None)), [CheckKind::Brightness]);
+    let of_dependent = checks(vec![dependent], &scene.truth(), None);
+    assert_eq!(kinds(&of_dependent), [CheckKind::Halves, CheckKind::Brightness]);
+    assert!(of_dependent[0].found.is_none() && of_dependent[0].note.contains("not independent"));
     let mut whole = scene.render(8, 1);
     whole.color.halves = None;
-    assert_eq!(kinds(&checks(vec![whole], &scene.truth(), None)), [CheckKind::Brightness]);
+    let of_whole = checks(vec![whole], &scene.truth(), None);
+    assert_eq!(of_whole[0].note, "not made: frames have no half buffers");
+    assert!(of_whole[0].found.is_none() && of_whole[1].found.is_some(), "{of_whole:?}");
     assert_eq!(checks(Vec::new(), &scene.truth(), None), []);
 }
 

@@ -26,7 +26,7 @@ fn table(view: &View<'_>, id: String, estimates: &[&EstimateSummary], by_class: 
     let mut columns = vec![Column::number("spp").unit("spp"), Column::text("Method")];
     columns.extend(by_class.then(|| Column::text("Class")));
     columns.extend(["Estimated", "Measured", "Ratio"].map(Column::number));
-    columns.push(Column::text("Trend"));
+    columns.push(Column::text("Verdict"));
     let row = |e: &&EstimateSummary| {
         let mut cells = vec![TableCell::count(e.spp.into()), view.row_cell(&e.label)];
         cells.extend(by_class.then(|| TableCell::text(&e.class)));
