@@ -6,6 +6,7 @@
 //! `kernels/cross_bilateral/96x64` is the bank of li2012sbf, seven guides and six planes, beside its naive loop; pixel-offsets are
 //! those of the largest window. On a busy machine look at the lower end of the interval.
 
+use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::hint::black_box;
 use std::time::Duration;
 
@@ -160,7 +161,7 @@ fn bank_of_bilateral_filters(criterion: &mut Criterion) {
     let guides: Vec<_> = (0..7)
         .map(|k| BilateralGuide { value: values[k % 3], variance: &variance, sigma: [0.8, 0.25, 0.6][k / 3] })
         .collect();
-    let bank = [0.0, 0.7071, 1.0, 1.4142, 2.0, 2.8284, 4.0, 5.6569, 8.0].map(Spatial::new);
+    let bank = [0.0, FRAC_1_SQRT_2, 1.0, SQRT_2, 2.0, 2.0 * SQRT_2, 4.0, 4.0 * SQRT_2, 8.0].map(Spatial::new);
     let params = BilateralParams { width, height, floor: 0.01 };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
     let mut group = criterion.benchmark_group(format!("kernels/cross_bilateral/{width}x{height}"));

@@ -20,13 +20,17 @@
 //! D belongs to a pair of pixels, whatever the filter: the fast form computes exp(−D) once, over the largest window, and each filter
 //! multiplies it by its own factors from a table.
 
+mod distances;
+mod layout;
 pub mod naive;
 mod params;
+mod rows;
+mod sums;
 mod tile;
 
-use crate::engine::{TILE, for_each_tile};
+use crate::engine::for_each_tile;
 use crate::{InstructionSet, KernelError};
-use tile::{Layout, Work};
+use layout::{Layout, TILE, Work};
 
 pub use params::{
     BilateralGuide, BilateralParams, MAX_AVERAGED, MAX_FILTERS, MAX_GUIDES, MAX_MAGNITUDE, MAX_PIXELS,

@@ -5,6 +5,8 @@ mod oracle;
 mod properties;
 mod refused;
 
+use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
+
 use noisefloor_kernels::cross_bilateral::*;
 
 use crate::random::Random;
@@ -20,7 +22,7 @@ struct Case {
 }
 
 /// The spatial σ of li2012sbf.
-const SIGMAS: [f32; 9] = [0.0, 0.7071, 1.0, 1.4142, 2.0, 2.8284, 4.0, 5.6569, 8.0];
+const SIGMAS: [f32; 9] = [0.0, FRAC_1_SQRT_2, 1.0, SQRT_2, 2.0, 2.0 * SQRT_2, 4.0, 4.0 * SQRT_2, 8.0];
 
 impl Case {
     fn random(width: usize, height: usize, guides: usize, planes: usize) -> Self {

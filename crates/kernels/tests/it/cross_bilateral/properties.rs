@@ -80,10 +80,10 @@ fn a_pair_has_one_weight_from_both_sides() {
     let case = Case { bank: vec![Spatial::new(2.0)], ..Case::random(9, 7, 3, 1) };
     let all: Vec<usize> = (0..63).collect();
     let to = case.weights_to(&all);
-    for p in all {
-        assert!((to[p][p] - 1.0).abs() < 1e-15);
-        for q in 0..63 {
-            assert!((to[q][p] - to[p][q]).abs() < 1e-15, "{p}, {q}");
+    for (p, to_p) in to.iter().enumerate() {
+        assert!((to_p[p] - 1.0).abs() < 1e-15);
+        for (q, w) in to_p.iter().enumerate() {
+            assert!((w - to[q][p]).abs() < 1e-15, "{p}, {q}");
         }
     }
 }
