@@ -3,14 +3,17 @@
 //! `kernels/flash_filter/vfi_1280x960` is the figure to compare with moon2013flash: both steps (7×7, then 31×31, patch
 //! 5×5) on an image of that size. `…/steps_128x96` is small enough for the naive `f32` loop; times there divide into
 //! the ratio, and the elements of the throughput are pixel-offsets (a pixel and one neighbour inside the image).
-//! On a busy machine look at the lower end of the interval.
+//! `kernels/cross_bilateral/96x64` is the bank of li2012sbf, seven guides and six planes, beside its naive loop; pixel-offsets are
+//! those of the largest window. On a busy machine look at the lower end of the interval.
 
+use std::f32::consts::{FRAC_1_SQRT_2, SQRT_2};
 use std::hint::black_box;
 use std::time::Duration;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use noisefloor_benchmarks::{noise, surfaces};
 use noisefloor_kernels::InstructionSet;
+use noisefloor_kernels::cross_bilateral::{self, BilateralGuide, BilateralParams, Spatial};
 use noisefloor_kernels::flash_filter::{
     FlashInputs, FlashParams, Guide, Membership, PatchWeights, filter_into, naive,
 };
@@ -150,5 +153,38 @@ fn against_the_naive_loop(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, both_steps, against_the_naive_loop);
+fn bank_of_bilateral_filters(criterion: &mut Criterion) {
+    let (width, height) = (96, 64);
+    let frame = Frame::new(width, height);
+    let values: Vec<&[f32]> = frame.guide.iter().chain(&frame.source).map(Vec::as_slice).collect();
+    let variance = vec![0.01; width * height];
+    let guides: Vec<_> = (0..7)
+        .map(|k| BilateralGuide { value: values[k % 3], variance: &variance, sigma: [0.8, 0.25, 0.6][k / 3] })
+        .collect();
+    let bank = [0.0, FRAC_1_SQRT_2, 1.0, SQRT_2, 2.0, 2.0 * SQRT_2, 4.0, 4.0 * SQRT_2, 8.0].map(Spatial::new);
+    let params = BilateralParams { width, height, floor: 0.01 };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
+    let mut group = criterion.benchmark_group(format!("kernels/cross_bilateral/{width}x{height}"));
+    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(1));
+    group.throughput(Throughput::Elements(frame.pixel_offsets(16)));
+    for level in levels() {
+        group.bench_function(level.name(), |bencher| {
+            pool.install(|| {
+                bencher.iter(|| {
+                    let out = cross_bilateral::filter_at(&params, &guides, &values, &bank, level);
+                    black_box(out.expect("valid input"));
+                });
+            });
+        });
+    }
+    group.bench_function("naive_f32", |bencher| {
+        bencher.iter(|| {
+            cross_bilateral::naive::filter_f32(black_box(&params), &guides, &values, &bank)
+                .expect("valid input")
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, both_steps, against_the_naive_loop, bank_of_bilateral_filters);
 criterion_main!(benches);

@@ -9,6 +9,7 @@
 //! This is the only crate of the workspace that may use `unsafe`.
 
 mod check;
+pub mod cross_bilateral;
 mod engine;
 mod error;
 pub mod flash_filter;

@@ -1,5 +1,6 @@
 //! What must hold of the kernels: equal bits everywhere, the `f64` twin as the oracle, limiting cases.
 
+mod cross_bilateral;
 mod dense;
 mod exp2;
 mod flash_filter;
