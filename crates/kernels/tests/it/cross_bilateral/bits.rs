@@ -3,7 +3,7 @@
 use noisefloor_kernels::InstructionSet;
 
 use super::*;
-use crate::same_bits::assert_same_bits;
+use crate::same_bits::{assert_bits_of_every_processor, assert_same_bits};
 
 /// One pixel, less than a vector, just below and above a tile, several tiles.
 const SIZES: [(usize, usize); 10] =
@@ -13,15 +13,23 @@ fn bits(out: &[Filtered]) -> Vec<u32> {
     out.iter().flat_map(|of| of.planes.iter().chain([&of.weights])).flatten().map(|v| v.to_bits()).collect()
 }
 
+fn bits_at(case: &Case, level: InstructionSet) -> Vec<u32> {
+    bits(&filter_at(&case.params, &case.guides(), &case.planes(), &case.bank, level).unwrap())
+}
+
 #[test]
 fn every_size_gives_the_same_bits_on_every_instruction_set_and_number_of_threads() {
     for (i, (width, height)) in SIZES.into_iter().enumerate() {
         let case = Case::random(width, height, [7, 0, 1, 4][i % 4], 1 + i % 6);
         // One that this machine lacks runs in plain Rust.
-        assert_same_bits(&format!("{width}x{height}"), InstructionSet::ALL, |level| {
-            bits(&filter_at(&case.params, &case.guides(), &case.planes(), &case.bank, level).unwrap())
-        });
+        assert_same_bits(&format!("{width}x{height}"), InstructionSet::ALL, |level| bits_at(&case, level));
     }
+}
+
+#[test]
+fn bits_are_those_of_every_processor() {
+    let case = Case::random(23, 17, 4, 2);
+    assert_bits_of_every_processor(|level| bits_at(&case, level), 0);
 }
 
 #[test]
