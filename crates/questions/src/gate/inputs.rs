@@ -173,12 +173,16 @@ fn unfinished(old: Version<'_>, new: Version<'_>) -> Vec<Mismatch> {
     let of_old: BTreeSet<Place<'_>> = old.records.iter().map(place).collect();
     let rows: BTreeSet<&str> = old.context.methods.iter().map(|row| row.summary.label.as_str()).collect();
     let scenes: BTreeSet<&str> = old.context.scenes.iter().map(|scene| scene.id.as_str()).collect();
-    let cells: BTreeSet<(u32, u32)> = old.records.iter().map(|r| (r.spp, r.replicate)).collect();
+    let levels: BTreeSet<u32> = old.records.iter().map(|r| r.spp).collect();
+    let replicates: BTreeSet<u32> = old.records.iter().map(|r| r.replicate).collect();
     let mut missing: BTreeMap<(&str, &str), Cells> = BTreeMap::new();
     for record in new.records.iter().filter(|record| record.outcome == Outcome::Done) {
         let (scene, label, cell) =
             (record.scene.as_str(), record.label.as_str(), (record.spp, record.replicate));
-        let its_own = rows.contains(label) && scenes.contains(scene) && cells.contains(&cell);
+        let its_own = rows.contains(label)
+            && scenes.contains(scene)
+            && levels.contains(&record.spp)
+            && replicates.contains(&record.replicate);
         if its_own && !of_old.contains(&place(record)) {
             missing.entry((label, scene)).or_default().push(cell);
         }

@@ -19,11 +19,11 @@ pub(super) fn exhibits(view: &View<'_>) -> Vec<Exhibit> {
     }
     let mut parts = vec![Part::Note(NOTE.into()), Part::Note(family(view))];
     for (question, title) in KINDS {
-        let claims = view.summary.claims.iter().filter(|claim| claim.id.question == question);
-        let rows: Vec<TableRow> = claims.map(|claim| row(view, claim)).collect();
-        if !rows.is_empty() {
+        let of_question = view.summary.claims.iter().filter(|claim| claim.id.question == question);
+        let claims: Vec<&ClaimSummary> = of_question.collect();
+        if !claims.is_empty() {
             parts.push(Part::Heading(title.into()));
-            parts.push(Part::Table(table(question, rows)));
+            parts.push(Part::Table(table(view, question, &claims)));
         }
     }
     let title = "Statistics: claims, evidence, verdicts".into();
@@ -53,11 +53,12 @@ fn family(view: &View<'_>) -> String {
     )
 }
 
-fn table(question: &str, rows: Vec<TableRow>) -> Table {
-    let columns = vec![
-        Column::text("Scene"),
-        Column::number("spp").unit("spp"),
-        Column::text("Row"),
+/// One table per question; a row of the study is named where the claims are of several.
+fn table(view: &View<'_>, question: &str, claims: &[&ClaimSummary]) -> Table {
+    let of_several = claims.iter().any(|claim| claim.id.label != claims[0].id.label);
+    let mut columns = vec![Column::text("Scene"), Column::number("spp").unit("spp")];
+    columns.extend(of_several.then(|| Column::text("Row")));
+    columns.extend([
         Column::text("Claim"),
         Column::text("Claimed"),
         Column::number("Measured"),
@@ -65,20 +66,20 @@ fn table(question: &str, rows: Vec<TableRow>) -> Table {
         Column::text("Verdict"),
         Column::number("p (Holm)"),
         Column::text("What would change it"),
-    ];
+    ]);
+    let rows = claims.iter().map(|claim| row(view, claim, of_several)).collect();
     Table { id: format!("claims-{question}"), columns, rows, ..Table::default() }
 }
 
-fn row(view: &View<'_>, claim: &ClaimSummary) -> TableRow {
+fn row(view: &View<'_>, claim: &ClaimSummary, of_several: bool) -> TableRow {
     let spp = claim.id.spp.map_or_else(TableCell::none, |spp| TableCell::count(spp.into()));
     let p = claim.p_adjusted.map_or_else(TableCell::none, |p| {
         let alone = claim.p.map_or_else(String::new, |p| format!("alone {}", shown::probability(p)));
         TableCell::text(shown::probability(p)).number(Number::exact(p)).about(alone)
     });
-    TableRow::new(vec![
-        TableCell::text(view.scene_title(&claim.id.scene)),
-        spp,
-        view.row_cell(&claim.id.label),
+    let mut cells = vec![TableCell::text(view.scene_title(&claim.id.scene)), spp];
+    cells.extend(of_several.then(|| view.row_cell(&claim.id.label)));
+    cells.extend([
         TableCell::text(&claim.sentence),
         TableCell::text(shown::region(claim)),
         measured(claim),
@@ -86,7 +87,8 @@ fn row(view: &View<'_>, claim: &ClaimSummary) -> TableRow {
         shown::word(Some(claim)),
         p,
         TableCell::text(shown::changed_by(claim)),
-    ])
+    ]);
+    TableRow::new(cells)
 }
 
 /// The effect with its interval; where the reference's noise matters, what it would be without the allowance.

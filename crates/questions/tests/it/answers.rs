@@ -115,7 +115,10 @@ fn only_claims_that_are_all_shown_are_green_and_one_that_is_refuted_is_red() {
     // p is 0.05 at the interval's end: refuted alone, not beside fifteen others.
     let alone = with(0.002_01, 0.003, 0.003_99);
     assert_eq!(alone.tone, Tone::Plain);
-    assert!(alone.sentences[0].contains("Each taken alone, 1 would be refuted; at most 0.80 by chance"), "{alone:?}");
+    assert!(
+        alone.sentences[0].contains("Each taken alone, 1 would be refuted; at most 0.80 by chance"),
+        "{alone:?}"
+    );
 }
 
 /// The study in which the guarded row breaks its proven bound at 4 samples.
