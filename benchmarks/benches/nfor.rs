@@ -34,7 +34,8 @@ fn whole_method(criterion: &mut Criterion) {
 fn against_the_plain_loops(criterion: &mut Criterion) {
     let frame = method_frame(40, 30, false);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a thread starts");
-    let filters: [(&str, [fn(&Frame); 2]); 2] =
+    type Forms = [fn(&Frame); 2];
+    let filters: [(&str, Forms); 2] =
         [("regression", [regression, naive_regression]), ("patch_means", [patch_means, naive_patch_means])];
     for (name, forms) in filters {
         let mut group = criterion.benchmark_group(format!("nfor/40x30/{name}"));
