@@ -46,6 +46,8 @@ pub(crate) fn card(params: &Params) -> MethodCard {
         "no bound is claimed; the error estimate is of the image refitted from the prefiltered colour, whose bias it does not see"
             .into(),
         "meant for depth, normal and albedo; with fewer features its models are positions alone".into(),
+        "fine caustics that are in no feature are blurred, at 64 samples to more than the input's error; in plain MSE glints are too"
+            .into(),
     ];
     if params.coverage == 0.0 {
         card.notes.push(

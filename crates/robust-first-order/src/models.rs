@@ -10,7 +10,7 @@ use crate::params::Assembled;
 use crate::settings::Settings;
 use crate::tile::{ASSEMBLED, Assembly, Pass, Work};
 
-/// Tiles whose sums are held at a time: 64 MiB at 800×800.
+/// Tiles whose sums are held at a time: 91 MiB at 800×800.
 const TILES: usize = 256;
 
 /// All models of a frame, blended.

@@ -61,7 +61,8 @@ pub fn half_variance(halves: &[Image; 2], samples: &Samples, channel: usize) -> 
 }
 
 /// Sample variance of the mean scaled to the level of the two-buffer variance, per channel: the first has the
-/// structure, the second the right level under low-discrepancy sampling (rousselle2013rdfc, Sec. 4). At least 0 and at most `most`.
+/// structure, the second the right level under low-discrepancy sampling (rousselle2013rdfc, Sec. 4). At least 0 and at most `most`;
+/// NaN where the sample variance is, which takes no part in the level of others.
 #[must_use]
 pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &Samples, most: f32) -> Image {
     let (width, height, channels) = (variance.width(), variance.height(), variance.channels());
@@ -69,13 +70,26 @@ pub fn scaled_sample_variance(variance: &Image, halves: &[Image; 2], samples: &S
     for c in 0..channels {
         let two = box_mean(&half_variance(halves, samples, c), width, BOX_RADIUS);
         let plane: Vec<f64> = variance.plane(c).iter().copied().map(f64::from).collect();
-        let sample = box_mean(&plane, width, BOX_RADIUS);
+        let sample = mean_of_known(&plane, width);
         for (p, value) in out.plane_mut(c).iter_mut().enumerate() {
             let scaled = plane[p] * two[p] / (GUARD + sample[p]);
             *value = scaled.clamp(0.0, f64::from(most)) as f32;
         }
     }
     out
+}
+
+/// Means over the boxes around pixels of what is a number there; any number for a box without one.
+fn mean_of_known(plane: &[f64], width: usize) -> Vec<f64> {
+    if !plane.iter().any(|v| v.is_nan()) {
+        return box_mean(plane, width, BOX_RADIUS);
+    }
+    let known: Vec<f64> = plane.iter().map(|v| if v.is_nan() { 0.0 } else { 1.0 }).collect();
+    let values: Vec<f64> = plane.iter().map(|v| if v.is_nan() { 0.0 } else { *v }).collect();
+    let means = box_mean(&values, width, BOX_RADIUS).into_iter().zip(box_mean(&known, width, BOX_RADIUS));
+    // The least share of a box is that of one pixel.
+    let least = 0.5 / ((2 * BOX_RADIUS + 1) * (2 * BOX_RADIUS + 1)) as f64;
+    means.map(|(mean, share)| mean / share.max(least)).collect()
 }
 
 /// Two-buffer variance of the mean, smoothed over 3×3 pixels with a Gaussian of standard deviation 0.5 pixels, clipped

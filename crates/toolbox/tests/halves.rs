@@ -38,6 +38,27 @@ fn half_differences_average_to_the_variance_and_scaling_ignores_the_scale_of_sam
 }
 
 #[test]
+fn a_variance_that_is_no_number_is_none_and_tells_nothing_of_its_neighbours() {
+    let (w, h) = (40, 30);
+    let mut normals = Normals::new(7);
+    let mut half = || Image::from_fn(w, h, 1, |_, _, _| normals.next() as f32);
+    let halves = [half(), half()];
+    let mut sample = Image::from_fn(w, h, 1, |_, x, _| 0.1 + 0.01 * x as f32);
+    let whole = scaled_sample_variance(&sample, &halves, &Samples::uniform(8), f32::MAX);
+    sample.set(0, 20, 15, f32::NAN);
+    let spoilt = scaled_sample_variance(&sample, &halves, &Samples::uniform(8), f32::MAX);
+    for (p, (a, b)) in whole.data().iter().zip(spoilt.data()).enumerate() {
+        // The mean of the box without one of its 441 values, all of which are within a factor of two of it.
+        let same = (b / a - 1.0).abs() < 1.0 / 300.0;
+        assert_eq!(b.is_nan(), p == 15 * w + 20);
+        assert!(b.is_nan() || same, "{p}: {a}, {b}");
+    }
+    let nothing = Image::filled(w, h, 1, f32::NAN);
+    let none = scaled_sample_variance(&nothing, &halves, &Samples::uniform(8), f32::MAX);
+    assert!(none.data().iter().all(|v| v.is_nan()));
+}
+
+#[test]
 fn unequal_halves_count_by_their_samples() {
     let halves = [Image::filled(5, 4, 1, 3.0), Image::filled(5, 4, 1, 1.0)];
     for (n, a) in [(16u32, 8u32), (7, 4), (3, 2), (2, 1)] {

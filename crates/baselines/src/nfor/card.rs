@@ -41,12 +41,12 @@ pub(super) fn card(params: &Params, settings: &Settings) -> MethodCard {
     card.named_features.clone_from(&params.features);
     card.claims.estimates_error = true;
     if settings.exposure == Exposure::AsIs {
-        let epsilon = "1e-7 is added to variances whatever the exposure: a frame of a thousandth of the light has up to twice \
-                       the error or more";
+        let epsilon = "1e-7 is added to variances whatever the exposure: at a thousandth of the light the error was 2.0 and \
+                       2.5 times as large on two frames";
         card.varies_with.push((Invariance::Exposure, epsilon.into()));
     }
     if settings.depth == Depth::Raw && params.features.iter().any(|name| name == FeatureId::Depth.name()) {
-        let units = "1e-7 is added to variances of depth, and columns below 1.3e-6 of the largest are dropped, in its unit";
+        let units = "1e-7 is added to variances of depth, and columns whose norm falls below 1.2e-7 of the largest are dropped, in its unit";
         card.varies_with.push((Invariance::FeatureUnits, units.into()));
     }
     let light = "models of windows with a spike predict its surroundings by unequal weights: one sample of a million times the \

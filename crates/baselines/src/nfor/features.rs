@@ -50,7 +50,7 @@ fn of(frame: &Frame, feature: &Estimate, settings: &Settings) -> Noisy {
     let halves = halves.each_ref().map(|half| within(half, MOST));
     let variance = match &feature.variance {
         Some(v) if settings.scales(frame.sampling) => {
-            scaled_sample_variance(v.mean_variance(), &halves, &frame.samples, MOST_SQUARE)
+            scaled_sample_variance(&known(v.mean_variance()), &halves, &frame.samples, MOST_SQUARE)
         }
         Some(v) => known(v.mean_variance()),
         None => smoothed_half_variance(&halves, &frame.samples, MOST_SQUARE),

@@ -68,7 +68,7 @@ impl Nfor {
             DenoiseError::refuse(ID, "a value is not finite", image, |v| v.abs() <= kernel::MOST)?;
         }
         let variance = if self.settings.scales(frame.sampling) {
-            scaled_sample_variance(sampled, halves, &frame.samples, kernel::MOST_SQUARE)
+            scaled_sample_variance(&features::known(sampled), halves, &frame.samples, kernel::MOST_SQUARE)
         } else {
             features::known(sampled)
         };

@@ -184,12 +184,17 @@ fn a_feature_of_unknown_variance_is_left_as_it_is_in_the_patch_around_it() {
 #[test]
 fn a_frame_with_a_variance_that_is_no_number_is_filtered() {
     let mut frame = frame(&truth(24, 20), 0.1, 8);
-    let variance = frame.color.variance.take().unwrap().into_mean_variance();
-    let mut spoilt = variance.clone();
+    let mut spoilt = frame.color.variance.take().unwrap().into_mean_variance();
     spoilt.set(1, 12, 10, f32::NAN);
     frame.color.variance = Some(Variance::of_mean(spoilt));
     let out = run(Params::default(), &frame).image;
     assert!(out.data().iter().all(|v| v.is_finite()));
+    // Scaled variances come from boxes of 21×21 pixels; one that is unknown spoils none of its neighbours.
+    frame.sampling = noisefloor_frame::Sampling::LowDiscrepancy;
+    let spoilt = run(of(Profile::Best), &frame).image;
+    let moved = |x: usize, y: usize| (spoilt.get(1, x, y) - frame.color.mean.get(1, x, y)).abs() > 1e-3;
+    let far: Vec<bool> = (0..20).flat_map(|y| (0..6).map(move |x| (x, y))).map(|(x, y)| moved(x, y)).collect();
+    assert!(far.iter().filter(|moved| **moved).count() > 100, "noise is taken out far from it");
 }
 
 #[test]

@@ -63,6 +63,7 @@ impl Distances<'_> {
             taken: s.splat(-1.0 / (weighting.k * weighting.k)),
             epsilon: s.splat(weighting.epsilon),
             largest: s.splat(LARGEST),
+            unknown: self.layout.unknown,
         };
         let corner = guide.origin() + group.rows.start * guide.pitch - F * guide.pitch - F;
         let shift = group.dy * guide.pitch as isize + group.dx;
@@ -133,11 +134,13 @@ struct Pair<S: Simd> {
     taken: S::F,
     epsilon: S::F,
     largest: S::F,
+    /// As in [`Layout::unknown`].
+    unknown: bool,
 }
 
 impl<S: Simd> Pair<S> {
-    /// Δ² = ((g(p) − g(q))² − (a + min(a, b)))/(k²(a + b) + ε), at most [`LARGEST`], and that where it is NaN; of the pixels at
-    /// `here` and their neighbours at `there`, `there + 1`, …
+    /// Δ² = ((g(p) − g(q))² − (a + min(a, b)))/(k²(a + b) + ε), at most [`LARGEST`], and that where it is NaN, but 0 where one of
+    /// the two is beyond the image, whatever the other; of the pixels at `here` and their neighbours at `there`, `there + 1`, …
     #[inline(always)]
     fn at<const N: usize>(&self, s: S, guide: &Plane, here: usize, there: usize) -> [S::F; N] {
         let [value, variance, own] = self.planes;
@@ -153,6 +156,16 @@ impl<S: Simd> Pair<S> {
             let denominator = s.add(s.add(a, b), self.epsilon);
             let distance = s.div(s.fma(difference, difference, noise), denominator);
             out[i] = s.min(distance, self.largest);
+        }
+        if self.unknown {
+            // Infinite variances mark what is beyond the image. Of a NaN and another value `max` gives the second.
+            let infinite = s.splat(f32::INFINITY);
+            let outside = s.keep(s.le(infinite, a), a);
+            for i in 0..N {
+                let b = s.load_beside(guide, variance + there, i);
+                let either = s.le(infinite, s.max(b, outside));
+                out[i] = s.sub(out[i], s.keep(either, out[i]));
+            }
         }
         out
     }

@@ -18,6 +18,8 @@ const LEAST_OWN: f32 = 1e-4;
 pub(super) struct Layout {
     pub weighting: Weighting,
     pub channels: usize,
+    /// Whether a variance is NaN somewhere.
+    pub unknown: bool,
     /// Copies of the guide: row by row, all planes beside each other.
     pub guide: Grid,
     /// Vertical sums: one plane per channel and offset of a group.
@@ -27,7 +29,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub fn new(weighting: Weighting, channels: usize, tile: (usize, usize)) -> Self {
+    pub fn new(weighting: Weighting, guides: &[&Channel<'_>], tile: (usize, usize)) -> Self {
+        let channels = guides.len();
         let around = weighting.window + weighting.patch;
         let wide = tile.0.next_multiple_of(MAX_LANES);
         // Vectors start on the last columns, and a group of offsets and a vector beside them are read.
@@ -36,6 +39,7 @@ impl Layout {
         Self {
             weighting,
             channels,
+            unknown: guides.iter().any(|guide| guide.variance.iter().any(|v| v.is_nan())),
             guide: Grid::interleaved(PLANES * channels, (around, around), (columns, rows)),
             sums: Grid::new(0, 0, wide + 3 * MAX_LANES, tile.1),
             wide,

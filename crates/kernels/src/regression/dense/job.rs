@@ -28,7 +28,7 @@ impl<'a> Job<'a> {
     pub fn new(fit: &'a Fit, planes: &'a Planes<'a>, level: InstructionSet) -> Self {
         let weighting = fit.weighting;
         let guides: Vec<_> = planes.guide.iter().collect();
-        let layout = Layout::new(weighting, planes.guide.len(), TILE);
+        let layout = Layout::new(weighting, &guides, TILE);
         let reach = weighting.window;
         Self {
             fit,

@@ -33,7 +33,7 @@ pub(super) fn filter(
     level: InstructionSet,
 ) -> Vec<Vec<Vec<f32>>> {
     let guides: Vec<_> = channels.iter().map(|channel| &channel.guide).collect();
-    let layout = Layout::new(*weighting, channels.len(), TILE);
+    let layout = Layout::new(*weighting, &guides, TILE);
     let reach = weighting.window;
     let first = channels.iter().scan(0, |next, channel| {
         let first = *next;

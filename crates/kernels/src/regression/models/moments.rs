@@ -138,9 +138,28 @@ fn exact(weight: &[Lanes], a: &[Lanes], b: &[Lanes]) -> f64 {
     sum
 }
 
-/// Xβ of three planes.
+/// Xβ of three planes; `fine` in `f64`, where slopes of columns that are nearly one cancel.
 #[inline(always)]
-pub(super) fn predict(design: Design<'_>, slopes: &[[f64; COLUMNS]; WIDE], out: [&mut [Lanes]; WIDE]) {
+pub(super) fn predict(
+    design: Design<'_>,
+    slopes: &[[f64; COLUMNS]; WIDE],
+    out: [&mut [Lanes]; WIDE],
+    fine: bool,
+) {
+    if fine {
+        for (slopes, out) in slopes.iter().zip(out) {
+            for (group, out) in out.iter_mut().enumerate() {
+                for l in 0..LANES {
+                    let mut sum = 0.0;
+                    for i in 0..COLUMNS {
+                        sum += slopes[i] * f64::from(design.x[i * design.stride + group][l]);
+                    }
+                    out[l] = sum as f32;
+                }
+            }
+        }
+        return;
+    }
     let mut factors = [[0.0f32; COLUMNS]; WIDE];
     for c in 0..WIDE {
         for i in 0..COLUMNS {
@@ -166,9 +185,25 @@ pub(super) fn predict(design: Design<'_>, slopes: &[[f64; COLUMNS]; WIDE], out: 
 /// Half of the columns.
 const HALF: usize = COLUMNS / 2;
 
-/// xᵀ Q x for every row of X, at least 0.
+/// xᵀ Q x for every row of X, at least 0; `fine` in `f64`, where entries of Q are large and cancel.
 #[inline(always)]
-pub(super) fn quadratic(design: Design<'_>, q: &Square, out: &mut [Lanes]) {
+pub(super) fn quadratic(design: Design<'_>, q: &Square, out: &mut [Lanes], fine: bool) {
+    if fine {
+        for (group, out) in out.iter_mut().enumerate() {
+            for l in 0..LANES {
+                let mut sum = 0.0;
+                for i in 0..COLUMNS {
+                    let mut inner = 0.0;
+                    for j in 0..COLUMNS {
+                        inner += q.0[i][j] * f64::from(design.x[j * design.stride + group][l]);
+                    }
+                    sum += inner * f64::from(design.x[i * design.stride + group][l]);
+                }
+                out[l] = if sum > 0.0 { sum as f32 } else { 0.0 };
+            }
+        }
+        return;
+    }
     // Of each half of the columns its own square, and twice what both have together.
     let mut factors = [[0.0f32; COLUMNS]; COLUMNS];
     for i in 0..COLUMNS {

@@ -73,7 +73,9 @@ impl Vectorised for Open<'_> {
         let bandwidths = field.rules.bandwidths.len();
         let mut farthest = [f32::INFINITY; MAX_BANDWIDTHS];
         for (k, farthest) in farthest.iter_mut().enumerate().take(bandwidths) {
-            *farthest = -field.rules.least_weight.ln() / field.factor(k);
+            // In double precision: libraries differ in the last digit of a logarithm, and this one decides who takes part.
+            let least = f64::from(field.rules.least_weight).ln();
+            *farthest = (-least / f64::from(field.factor(k))) as f32;
         }
         let farthest = &farthest[..bandwidths];
         // One more place for what no bandwidth gives a weight.

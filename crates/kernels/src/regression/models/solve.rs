@@ -4,6 +4,8 @@ use super::size::COLUMNS;
 
 /// Row length of a [`Square`]: whole vectors.
 const ROW: usize = 12;
+/// A ridge below this is none: pivots of equal columns would be rounding.
+const LEAST_RIDGE: f64 = 1e-10;
 /// Eigenvalues below this share of the largest are dropped, where there is no ridge.
 const LEAST: f64 = 1e-9;
 
@@ -16,7 +18,7 @@ impl Square {
     /// determine. S = Σw, the first element, is above 0.
     #[inline(always)]
     pub fn inverse(&self, ridge: f64) -> Self {
-        if ridge > 0.0 { self.with_ridge(ridge) } else { self.truncated() }
+        if ridge >= LEAST_RIDGE { self.with_ridge(ridge) } else { self.truncated() }
     }
 
     /// Gauss and Jordan's elimination; the matrix is positive definite by its ridge, so that it needs no pivots.

@@ -127,7 +127,7 @@ impl Vectorised for Step<'_, '_> {
         let sums = sides(weights, design, from, fine);
         let slopes = [inverse.times(&sums[0]), inverse.times(&sums[1]), inverse.times(&sums[2])];
         let [r, g, b] = value;
-        predict(design, &slopes, [&mut r[..n], &mut g[..n], &mut b[..n]]);
+        predict(design, &slopes, [&mut r[..n], &mut g[..n], &mut b[..n]], fine);
 
         // Σ_s H² Var_{t−1}.
         for ((square, w), v) in squares.iter_mut().zip(weights).zip(variance) {
@@ -136,7 +136,7 @@ impl Vectorised for Step<'_, '_> {
             }
         }
         let spread = inverse.around(&self::square(&squares[..n], design, fine));
-        quadratic(design, &spread, &mut out[..n]);
+        quadratic(design, &spread, &mut out[..n], fine);
 
         // bias_t² + Var_t.
         let mut sum = [0.0f32; LANES];
@@ -177,9 +177,9 @@ impl Vectorised for Fit<'_> {
         let [a, b, c, d, e, f] = &mut window.fitted;
         let weights = &model.weights[..n];
         let guide = fit(model, weights, design, &window.guide, fine);
-        predict(design, &guide, [&mut d[..n], &mut e[..n], &mut f[..n]]);
+        predict(design, &guide, [&mut d[..n], &mut e[..n], &mut f[..n]], fine);
         let target = if prefiltered { guide } else { fit(model, weights, design, &window.target, fine) };
-        predict(design, &target, [&mut a[..n], &mut b[..n], &mut c[..n]]);
+        predict(design, &target, [&mut a[..n], &mut b[..n], &mut c[..n]], fine);
     }
 }
 

@@ -148,6 +148,15 @@ fn an_unknown_variance_keeps_its_patch_apart() {
 }
 
 #[test]
+fn an_unknown_variance_beside_the_border_is_nothing_to_what_is_beyond_it() {
+    for place in [2 * 24 + 2, 0, 10 * 24 + 23] {
+        let mut case = Case::random(24, 20, 3);
+        case.guide.iter_mut().for_each(|[_, variance]| variance[place] = f32::NAN);
+        assert!(farthest(&case.regress(), &case.oracle()) < 2e-6, "{place}");
+    }
+}
+
+#[test]
 fn what_is_out_of_range_is_refused() {
     let case = Case::random(5, 4, 2);
     let refused = |change: &dyn Fn(&mut Case)| {

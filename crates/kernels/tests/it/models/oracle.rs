@@ -22,7 +22,7 @@ fn weights_fits_biases_and_variances_are_those_of_the_hat_matrix() {
         (1, 1, (0, 0), 5),
         (33, 12, (30, 3), 15),
     ] {
-        for ridge in [1e-3, 0.1] {
+        for ridge in [1e-3, 0.1, 0.0] {
             let mut case = Case::new(width, height, 21);
             case.rules.ridge = ridge;
             let field = case.field();
