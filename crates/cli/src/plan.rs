@@ -38,9 +38,9 @@ pub fn run(context: &Context, args: &Plan) -> anyhow::Result<Exit> {
     let cache = args.cache.clone().unwrap_or_else(default_cache);
     let size = args.size.map(|s| (s.width, s.height));
     let ahead = forecast(&study, &context.registry, size, &out, &cache)?;
-    let (spread_from, spreads) = spread(args, &study, &out)?;
+    let spread = spread(args, &study, &out)?;
     let rate = if ahead.samples > 0 { Some(rate()?) } else { None };
-    let plans = plans(args, &study, ahead, (spread_from, &spreads), rate);
+    let plans = plans(args, &study, ahead, spread, rate);
     if args.json {
         say!(Out::Stdout, "{}", serde_json::to_string_pretty(&plans)?)?;
     } else {
@@ -58,32 +58,37 @@ fn ask_for(study: &mut Study, replicates: u32) {
 }
 
 /// The spread over replicates, and where it is from: the folder asked for, or the study's own results if there are any.
-fn spread(args: &Plan, study: &Study, out: &Path) -> anyhow::Result<(Option<String>, Vec<Spread>)> {
+fn spread(args: &Plan, study: &Study, out: &Path) -> anyhow::Result<SpreadFrom> {
     let from = match &args.from {
         Some(from) => from,
         None if out.join("results.jsonl").is_file() => out,
-        None => return Ok((None, Vec::new())),
+        None => return Ok(SpreadFrom::default()),
     };
-    let SpreadsOf { spreads, size } = spreads_of(from, Some(study.primary_metric.as_str()))?;
+    let SpreadsOf { spreads, sizes } = spreads_of(from, Some(study.primary_metric.as_str()))?;
     if args.from.is_none() && spreads.is_empty() {
-        return Ok((None, spreads));
+        return Ok(SpreadFrom::default());
     }
     let planned = args.size.map_or((study.width, study.height), |size| (size.width, size.height));
-    let of_others =
-        size.filter(|measured| *measured != planned).map_or_else(String::new, |(width, height)| {
-            let (wide, high) = planned;
-            format!(" on images of {width}×{height} pixels; those of {wide}×{high} may spread otherwise")
-        });
-    Ok((Some(format!("{}{of_others}", from.display())), spreads))
+    // Other scenes have sizes of their own.
+    let rendered = study.scenes.iter().filter(|scene| matches!(scene.source, SceneSource::Builtin(_)));
+    let mut others = rendered.filter_map(|scene| sizes.get(&scene.id)).filter(|size| **size != planned);
+    let note = others.next().map(|(width, height)| {
+        let (wide, high) = planned;
+        format!("of images of {width}×{height} pixels; those of {wide}×{high} may spread otherwise")
+    });
+    Ok(SpreadFrom { folder: Some(from.display().to_string()), note, spreads })
 }
 
-fn plans(
-    args: &Plan,
-    study: &Study,
-    ahead: Forecast,
-    (spread_from, spreads): (Option<String>, &[Spread]),
-    rate: Option<Rate>,
-) -> Plans {
+/// What is known of the spread over replicates.
+#[derive(Default)]
+struct SpreadFrom {
+    folder: Option<String>,
+    /// In what it is not that of the study.
+    note: Option<String>,
+    spreads: Vec<Spread>,
+}
+
+fn plans(args: &Plan, study: &Study, ahead: Forecast, spread: SpreadFrom, rate: Option<Rate>) -> Plans {
     let rows = study.methods.len() as u32;
     let pairs = match study.comparison {
         noisefloor_study::Family::AllPairs => rows * rows.saturating_sub(1) / 2,
@@ -100,8 +105,9 @@ fn plans(
         confidence: question.confidence(),
         ratio: args.ratio,
         power: args.power,
-        spread_from,
-        levels: levels(&ahead.items, spreads, &question),
+        spread_from: spread.folder,
+        spread_note: spread.note,
+        levels: levels(&ahead.items, &spread.spreads, &question),
         cells: ahead.cells,
         finished_cells: ahead.finished,
         samples: ahead.samples,

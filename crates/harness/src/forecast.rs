@@ -1,6 +1,6 @@
 //! What a study will do and what its replicates can tell, without running it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use noisefloor_denoiser::Registry;
@@ -79,8 +79,9 @@ pub fn forecast(
 /// As [`crate::analysis_of`].
 pub fn spreads_of(dir: &Path, metric: Option<&str>) -> Result<SpreadsOf, HarnessError> {
     let kept = KeptStudy::read(dir)?;
-    let size = kept.context.scenes.first().map(|scene| (scene.width, scene.height));
-    Ok(SpreadsOf { spreads: spreads(&kept.records, metric.unwrap_or(&kept.study.primary_metric)), size })
+    let sizes = kept.context.scenes.iter().map(|scene| (scene.id.clone(), (scene.width, scene.height)));
+    let sizes = sizes.collect();
+    Ok(SpreadsOf { spreads: spreads(&kept.records, metric.unwrap_or(&kept.study.primary_metric)), sizes })
 }
 
 /// Spreads over replicates, and of images of which size.
@@ -88,6 +89,6 @@ pub fn spreads_of(dir: &Path, metric: Option<&str>) -> Result<SpreadsOf, Harness
 pub struct SpreadsOf {
     /// By scene, level and pair.
     pub spreads: Vec<Spread>,
-    /// Columns and rows of the first scene; none in a folder without one.
-    pub size: Option<(usize, usize)>,
+    /// Columns and rows of each scene.
+    pub sizes: BTreeMap<String, (usize, usize)>,
 }

@@ -18,6 +18,9 @@ pub(super) struct Plans {
     pub(super) power: f64,
     /// Where the spread over replicates is from; absent if it is the range that is usual.
     pub(super) spread_from: Option<String>,
+    /// In what that is not what is planned.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) spread_note: Option<String>,
     pub(super) levels: Vec<Level>,
     pub(super) cells: u64,
     pub(super) finished_cells: u64,

@@ -13,7 +13,10 @@ pub(super) fn text(plans: &Plans) -> String {
          cell\n"
     ));
     out.push_str(&match &plans.spread_from {
-        Some(from) => format!("spread of log ratios over replicates: measured in {from}\n\n"),
+        Some(from) => {
+            let note = plans.spread_note.as_ref().map_or_else(String::new, |note| format!(", {note}"));
+            format!("spread of log ratios over replicates: measured in {from}{note}\n\n")
+        }
         None => {
             "spread of log ratios over replicates: not measured; what studies of this repository have\n\n"
                 .to_owned()

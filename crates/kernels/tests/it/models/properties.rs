@@ -128,6 +128,48 @@ fn a_constant_comes_back_exactly_and_costs_no_variance_where_there_is_none() {
 }
 
 #[test]
+fn rows_of_the_hat_matrix_sum_to_one() {
+    // What is fitted is constant, the guide and its weights are not.
+    for ridge in [0.1, 1e-3, 0.0] {
+        let mut case = Case::new(30, 22, 34);
+        case.rules.ridge = ridge;
+        case.target.iter_mut().for_each(|plane| plane.fill(17.3));
+        let field = case.field();
+        let level = InstructionSet::in_use();
+        let mut window = Window::new(&field, 10);
+        window.open(&field, (14, 10), 10, &Distances::default(), level);
+        let center = window.center();
+        for k in 0..3 {
+            window.weigh(&field, k, level);
+            window.fit(&field, k, false, level);
+            for (plane, center) in window.fitted().into_iter().zip(center) {
+                let count = window.pixels(k).len();
+                // 17 plus and minus sums of 10 columns.
+                assert!(plane[..count].iter().all(|v| (v + center - 17.3).abs() < 2e-4), "{ridge}, {k}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ridge_that_rounding_would_eat_is_none() {
+    let fitted = |ridge: f64| {
+        let mut case = Case::new(30, 22, 36);
+        case.features[2] = case.features[1].clone();
+        case.rules.ridge = ridge;
+        let field = case.field();
+        let level = InstructionSet::in_use();
+        let mut window = Window::new(&field, 8);
+        window.open(&field, (14, 10), 8, &Distances::default(), level);
+        window.weigh(&field, 1, level);
+        window.fit(&field, 1, false, level);
+        window.fitted().map(<[f32]>::to_vec)
+    };
+    assert_eq!(fitted(1e-18), fitted(0.0));
+    assert!(fitted(1e-10).iter().flatten().all(|v| v.is_finite()));
+}
+
+#[test]
 fn without_noise_only_equal_patches_weigh() {
     // Var = 0: documented as 0/0 = 0 and x/0 = 1e4.
     let mut case = Case::new(30, 22, 35);
