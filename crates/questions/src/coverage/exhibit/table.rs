@@ -67,7 +67,7 @@ fn cell(view: &View<'_>, label: &str, here: &[&CoverageSummary], nominal: f64) -
     // What is judged stands beside the verdict.
     let claim = view.claim(&id_of(c, label));
     let cell = match claim.zip(c.varying.as_ref()) {
-        Some((_, varying)) if c.constant > 0.0 || c.missed > 0.0 => {
+        Some((_, varying)) if format::percent(varying.value) != format::percent(c.covered.value) => {
             let judged = format!("{} where s > 0", format::percent(varying.value));
             TableCell { aside: shown::joined(&[&cell.aside, &judged], "; "), ..cell }
         }
