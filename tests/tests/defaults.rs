@@ -32,33 +32,41 @@ fn light(image: &Image) -> f64 {
     image.data().iter().map(|&v| f64::from(v)).sum()
 }
 
-/// Methods with the share of light that they may lose or add, and from how many samples per pixel on.
-const METHODS: [(&str, f64, u32); 4] =
-    [("virtual-flash", 0.05, 32), ("rdfc", 0.02, 16), ("nfor", 0.02, 16), ("robust-first-order", 0.02, 16)];
+/// A method and what it may leave or change.
+struct Limits {
+    id: &'static str,
+    /// Of the input's error.
+    error: f64,
+    /// Of the light, from so many samples per pixel on.
+    light: (f64, u32),
+}
+
+const METHODS: [Limits; 4] = [
+    Limits { id: "virtual-flash", error: 0.9, light: (0.05, 32) },
+    Limits { id: "rdfc", error: 0.9, light: (0.02, 16) },
+    Limits { id: "nfor", error: 0.9, light: (0.02, 16) },
+    // Glints in metal are blurred: 0.98 of the squared error is left in front of the toaster at 32 samples.
+    Limits { id: "robust-first-order", error: 1.0, light: (0.02, 16) },
+];
 
 #[test]
 fn defaults_are_not_above_their_input_and_keep_the_light_of_diffuse_and_glossy_scenes() {
     let registry = noisefloor_registry::registry([]);
-    let methods =
-        METHODS.map(|(id, light, from)| (id, registry.build(id, &Map::new()).unwrap().denoiser, light, from));
+    let methods = METHODS.map(|limits| (registry.build(limits.id, &Map::new()).unwrap().denoiser, limits));
     for scene_id in ["cornell-diffuse", "cornell", "toaster"] {
         let scene = Prepared::new(&(find(scene_id).unwrap().build)().at_frame(0)).unwrap();
         let truth = frame(&scene, REFERENCE, 1, Recorded::color_only()).color.mean;
         for spp in [8, 16, 32] {
             let noisy = frame(&scene, spp, 2 + u64::from(spp), Recorded::Available);
             let before = errors(&noisy.color.mean, &truth);
-            for (id, method, limit, from) in &methods {
+            for (method, Limits { id, error, light: (lost, from) }) in &methods {
                 let filtered = method.denoise(&Input::new(&noisy)).unwrap().image;
                 let what = format!("{id}, {scene_id}, {spp} samples per pixel");
                 for (after, before) in errors(&filtered, &truth).into_iter().zip(before) {
-                    if after >= 0.9 * before {
-                        println!("{what}: {} of the error", after / before);
-                    }
+                    assert!(after < error * before, "{what}: {after} of {before}");
                 }
                 let kept = light(&filtered) / light(&noisy.color.mean);
-                if spp >= *from && (kept - 1.0).abs() >= *limit {
-                    println!("{what}: {kept} of the light");
-                }
+                assert!(spp < *from || (kept - 1.0).abs() < *lost, "{what}: {kept} of the light");
             }
         }
     }
