@@ -133,7 +133,9 @@ fn bright(level: &LevelCell<'_>, measures: &[Measure<'_>]) -> Result<Option<Chec
         samples: (level.reference_spp > 0).then_some(level.reference_spp as f64),
     };
     let states = first.frame.sampling == Sampling::Independent;
-    let groups = measures.first().map(Measure::groups);
+    // Classes of a sampled reference are chosen by its own noise: among pixels that it calls edges it is too dark on average,
+    // and frames look too bright there. Blocks are chosen by nothing.
+    let groups = measures.first().map(Measure::groups).filter(|_| variance.is_none());
     let check = brightness(&frames, &truth, states, first.frame.width(), groups)?;
     let worst = check.all().filter_map(Outcome::tested).min_by(|a, b| a.p.total_cmp(&b.p));
     // All regions together are one check: the smallest p-value after Holm's rule.
