@@ -44,7 +44,6 @@ impl Settings {
     const PAPER: Self = Self { guide: Guide::SameHalf, last_factor: 1.0, positions: false, ..Self::PROGRAM };
     /// What wins by measurement.
     const BEST: Self = Self {
-        channels: Channels::Mean,
         solver: Solver::MinimalNorm,
         negative_error: NegativeError::Clamped,
         exposure: Exposure::Common,
