@@ -7,6 +7,7 @@ use noisefloor_questions::{GateError, GateOutcome, Version};
 use noisefloor_stats::Terms;
 use noisefloor_study::Key;
 use noisefloor_study::plan::{Item, PlannedCell};
+use noisefloor_study::record::Record;
 use thiserror::Error;
 
 use crate::error::HarnessError;
@@ -40,8 +41,9 @@ pub enum GateFailure {
 /// # Errors
 /// [`GateFailure`] if a folder cannot be read or the two had other inputs.
 pub fn gate(old: &Path, new: &Path, metric: Option<&str>, terms: Terms) -> Result<GateOutcome, GateFailure> {
-    finished(old)?;
-    let [old, new] = [read(old)?, read(new)?];
+    let kept = read(old)?;
+    finished(old, &kept.records)?;
+    let (old, new) = (kept, read(new)?);
     let metric = metric.unwrap_or(&old.study.primary_metric);
     let [a, b] = [&old, &new].map(|kept| Version { context: &kept.context, records: &kept.records });
     Ok(noisefloor_questions::gate(a, b, metric, terms)?)
@@ -72,12 +74,8 @@ fn planned(dir: &Path) -> impl Iterator<Item = PlannedCell> {
 }
 
 /// A part of a study says nothing of the rest: what it was to do must be there.
-fn finished(dir: &Path) -> Result<(), GateFailure> {
+fn finished(dir: &Path, records: &[Record]) -> Result<(), GateFailure> {
     let keys: Vec<Key> = planned(dir).map(|cell| cell.key).collect();
-    if keys.is_empty() {
-        return Ok(());
-    }
-    let records = KeptStudy::read(dir)?.records;
     let done: BTreeSet<&Key> = records.iter().map(|record| &record.cell).collect();
     match keys.iter().filter(|key| !done.contains(key)).count() {
         0 => Ok(()),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use noisefloor_questions::document;
-use noisefloor_stats::{Level, Verdict, interval_rejection, rate_standard_error, t_quantile};
+use noisefloor_stats::{Level, Needed, Verdict, interval_rejection, rate_standard_error, t_quantile};
 use noisefloor_study::Study;
 use noisefloor_study::summary::{ClaimSummary, Summary};
 
@@ -100,6 +100,10 @@ fn equal_pixels_are_told_apart_as_often_as_the_closed_form_says_on_normal_sample
     let found = claim(&normal, what);
     assert!(near(found.effect.value, exact, CHANNELS / 2), "{found:?} {exact}");
     assert_eq!(found.effect.n, 2, "no replicate is in two pairs");
+    assert_eq!(found.replicates_per_value, 2);
+    if let Needed::Replicates(count) = found.needed {
+        assert!(count > 4 && count % 2 == 0, "as many as make whole pairs, more than there are: {count}");
+    }
     let shown = document(&normal);
     let table = shown.tables().into_iter().find(|table| table.id == "membership-flats").unwrap();
     let power = |row: usize| table.rows[row].cells[4].number.unwrap().value;

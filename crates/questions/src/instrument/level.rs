@@ -135,7 +135,8 @@ fn bright(level: &LevelCell<'_>, measures: &[Measure<'_>]) -> Result<Option<Chec
     let states = first.frame.sampling == Sampling::Independent;
     // Classes of a sampled reference are chosen by its own noise: among pixels that it calls edges it is too dark on average,
     // and frames look too bright there. Blocks are chosen by nothing.
-    let groups = measures.first().map(Measure::groups).filter(|_| variance.is_none());
+    let exact = variance.is_some_and(|variance| variance.iter().all(|v| *v == 0.0));
+    let groups = measures.first().map(Measure::groups).filter(|_| exact);
     let check = brightness(&frames, &truth, states, first.frame.width(), groups)?;
     let worst = check.all().filter_map(Outcome::tested).min_by(|a, b| a.p.total_cmp(&b.p));
     // All regions together are one check: the smallest p-value after Holm's rule.

@@ -73,10 +73,7 @@ pub(super) fn analyse(index: &Index<'_>, summary: &mut Summary) {
                 bands.extend(band(finding.values).map(|band| (finding.values, band)));
             }
             if let Some(band) = bands.get(&finding.values) {
-                // Of constant pixels the transform is drawn: where those are many, it is uniform for no reason.
-                if finding.constant <= MOST_DRAWN {
-                    push(summary, claim(&finding, band, label));
-                }
+                claim(&finding, band, label).into_iter().for_each(|claim| push(summary, claim));
                 found.levels.push(finding);
             }
         }
@@ -125,8 +122,9 @@ pub(super) fn id_of(found: &Finding, label: &str) -> ClaimId {
     }
 }
 
-fn claim(found: &Finding, band: &Band, label: &str) -> Claim {
-    Claim {
+/// Of constant pixels the transform is drawn: where those are many it is uniform for no reason, and nothing is claimed.
+fn claim(found: &Finding, band: &Band, label: &str) -> Option<Claim> {
+    (found.constant <= MOST_DRAWN).then(|| Claim {
         id: id_of(found, label),
         sentence: format!("PIT is uniform: it deviates no more than {} uniform values do", found.values),
         effect: found.deviation.clone(),
@@ -136,7 +134,7 @@ fn claim(found: &Finding, band: &Band, label: &str) -> Claim {
         common: 0.0,
         trials: None,
         replicates_per_value: 1,
-    }
+    })
 }
 
 #[cfg(test)]

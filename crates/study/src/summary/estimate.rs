@@ -28,8 +28,8 @@ pub struct EstimateSummary {
     /// Whether `effect` is a ratio: all means of all replicates are positive.
     pub is_ratio: bool,
     /// Standard error that the reference contributes to the measured error.
-    #[serde(default)]
     /// What the reference contributes to the standard error of the effect; of a ratio on its logarithm.
+    #[serde(default)]
     pub common: f64,
     /// Means over ten bins of pixel-channels by rank of the estimate, lowest first; only for class `all`.
     pub deciles: Vec<EstimateBin>,

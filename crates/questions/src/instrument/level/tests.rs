@@ -9,6 +9,15 @@ use crate::cell::PixelClasses;
 const SIZE: (usize, usize) = (24, 18);
 
 fn checks(frames: Vec<Frame>, reference: &Reference, known_mean: Option<f64>) -> Vec<CheckRecord> {
+    checks_in(frames, reference, known_mean, &PixelClasses::from_reference(reference))
+}
+
+fn checks_in(
+    frames: Vec<Frame>,
+    reference: &Reference,
+    known_mean: Option<f64>,
+    classes: &PixelClasses,
+) -> Vec<CheckRecord> {
     let study = Study::plain("checked".into(), vec![8], Vec::new(), Vec::new());
     let of = |(replicate, frame)| LevelFrame { replicate, frame, invalid: Vec::new() };
     let frames: Vec<LevelFrame> = (0..).zip(frames).map(of).collect();
@@ -19,7 +28,7 @@ fn checks(frames: Vec<Frame>, reference: &Reference, known_mean: Option<f64>) ->
         reference,
         reference_spp: 0,
         known_mean,
-        classes: &PixelClasses::from_reference(reference),
+        classes,
         frames: &frames,
         intervals: students_t(),
         rows: &[],
@@ -92,6 +101,32 @@ fn a_reference_in_parts_is_held_against_the_frames_for_shared_samples() {
     };
     assert!(p_of(&parts(scene.render(8, 100).color.mean)) > 1e-4);
     assert!(p_of(&parts(frame.color.mean.clone())) < 1e-4, "a part is the frame");
+}
+
+#[test]
+fn classes_that_a_sampled_reference_chose_take_no_part() {
+    let scene = scene(NORMAL);
+    let parts = (0..8).map(|seed| scene.render(8, 100 + seed).color.mean).collect();
+    let sampled = Reference::from_parts(parts, 8, Sampling::Independent).unwrap();
+    let truth = scene.truth();
+    // As edges are, though more so: pixels at which the reference came out too dark.
+    let dark = (0..SIZE.0 * SIZE.1).map(|p| grey(&sampled, p) < grey(&truth, p)).collect();
+    let classes = PixelClasses::from_masks(&[("dark", dark)], &sampled);
+    let p_of = |reference: &Reference| {
+        let found = checks_in((0..4).map(|seed| scene.render(8, seed)).collect(), reference, None, &classes);
+        found.iter().find(|check| check.kind == CheckKind::Brightness).unwrap().found.unwrap().p
+    };
+    assert!(p_of(&sampled) > 1e-3);
+    // Frames that are too bright in one class of an exact image and too dark in the others are told by it alone.
+    let brighter = |seed| {
+        let mut frame = scene.render(8, seed);
+        for (i, value) in frame.color.mean.data_mut().iter_mut().enumerate() {
+            *value += if classes.of_pixel[i % (SIZE.0 * SIZE.1)] == 0 { 0.02 } else { -0.02 };
+        }
+        frame
+    };
+    let found = checks_in((0..4).map(brighter).collect(), &truth, None, &classes);
+    assert!(found[1].found.unwrap().p < 1e-3, "{found:?}");
 }
 
 /// A frame of one value everywhere, with a variance or none.

@@ -11,7 +11,7 @@ fn verdict(law: SampleLaw, spp: u32) -> (Finding, Verdict) {
     let answer = made.measure(measure).answers.remove(ID).unwrap();
     let found = finding("made", spp, serde_json::from_value(answer).unwrap()).unwrap();
     let mut summary = Summary::default();
-    push(&mut summary, claim(&found, &band(found.values).unwrap(), "mc"));
+    push(&mut summary, claim(&found, &band(found.values).unwrap(), "mc").unwrap());
     (found, summary.claims[0].alone)
 }
 
@@ -20,6 +20,14 @@ fn normal_samples_are_shown_to_be_uniform() {
     let (found, verdict) = verdict(SampleLaw::Gaussian { sd: 0.3, relative: false }, 4);
     assert_eq!((verdict, found.values, found.left_out), (Verdict::Shown, 961, 0), "{found:?}");
     assert_eq!((found.ecdf.len(), found.constant, found.missed_above), (POINTS, 0.0, 0.0));
+}
+
+#[test]
+fn of_transforms_that_are_drawn_nothing_is_claimed() {
+    let (found, _) = verdict(SampleLaw::Gaussian { sd: 0.3, relative: false }, 4);
+    let band = band(found.values).unwrap();
+    let of = |constant| claim(&Finding { constant, ..found.clone() }, &band, "mc");
+    assert!(of(0.1).is_some() && of(0.11).is_none() && of(1.0).is_none());
 }
 
 #[test]
