@@ -27,7 +27,6 @@ pub struct EstimateSummary {
     pub effect: Interval,
     /// Whether `effect` is a ratio: all means of all replicates are positive.
     pub is_ratio: bool,
-    /// Standard error that the reference contributes to the measured error.
     /// What the reference contributes to the standard error of the effect; of a ratio on its logarithm.
     #[serde(default)]
     pub common: f64,
