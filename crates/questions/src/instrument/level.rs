@@ -127,7 +127,10 @@ fn bright(level: &LevelCell<'_>, measures: &[Measure<'_>]) -> Result<Option<Chec
     let frames: Vec<Observed<'_>> = pairs.filter_map(|(_, measure)| measure.observed()).collect();
     let Some(first) = level.frames.first().filter(|_| !frames.is_empty()) else { return Ok(None) };
     let reference = &level.reference.frame;
-    let variance = reference.color.variance.as_ref().map(|v| v.mean_variance().data());
+    let stated = reference.color.variance.as_ref().map(|v| v.mean_variance().data());
+    // An exact reference states that it has none.
+    let exact = stated.is_some_and(|variance| variance.iter().all(|v| *v == 0.0));
+    let variance = stated.filter(|_| !exact);
     let truth = SampledTruth {
         truth: Truth { mean: level.reference.mean().data(), variance },
         samples: (level.reference_spp > 0).then_some(level.reference_spp as f64),
@@ -135,7 +138,6 @@ fn bright(level: &LevelCell<'_>, measures: &[Measure<'_>]) -> Result<Option<Chec
     let states = first.frame.sampling == Sampling::Independent;
     // Classes of a sampled reference are chosen by its own noise: among pixels that it calls edges it is too dark on average,
     // and frames look too bright there. Blocks are chosen by nothing.
-    let exact = variance.is_some_and(|variance| variance.iter().all(|v| *v == 0.0));
     let groups = measures.first().map(Measure::groups).filter(|_| exact);
     let check = brightness(&frames, &truth, states, first.frame.width(), groups)?;
     let worst = check.all().filter_map(Outcome::tested).min_by(|a, b| a.p.total_cmp(&b.p));

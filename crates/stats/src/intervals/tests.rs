@@ -295,3 +295,9 @@ fn planes_that_do_not_belong_together_are_refused() {
     let nothing = planes(&[], &[], SampleCounts::Uniform(4), 0);
     assert_eq!(of("t", &nothing, Level::TWO_SIDED_95).low, [0.0; 0]);
 }
+
+#[test]
+fn only_limits_promise_to_cover_at_least_as_often_as_they_say() {
+    let promising: Vec<&str> = FAMILIES.iter().filter(|f| f.at_least()).map(|f| f.id()).collect();
+    assert_eq!(promising, ["lower-t", "upper-t"]);
+}

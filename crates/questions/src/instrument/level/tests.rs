@@ -129,6 +129,29 @@ fn classes_that_a_sampled_reference_chose_take_no_part() {
     assert!(found[1].found.unwrap().p < 1e-3, "{found:?}");
 }
 
+#[test]
+fn a_block_that_is_too_bright_is_told_on_an_exact_image() {
+    let scene = scene(NORMAL);
+    let brighter = |seed| {
+        let mut frame = scene.render(8, seed);
+        for (i, value) in frame.color.mean.data_mut().iter_mut().enumerate() {
+            let pixel = i % (SIZE.0 * SIZE.1);
+            // One block of 8×8 pixels brighter, another darker.
+            let (x, y) = (pixel % SIZE.0, pixel / SIZE.0);
+            *value += if y < 8 && x < 8 {
+                0.05
+            } else if y < 8 && x < 16 {
+                -0.05
+            } else {
+                0.0
+            };
+        }
+        frame
+    };
+    let found = checks((0..4).map(brighter).collect(), &scene.truth(), None);
+    assert!(found[1].found.unwrap().p < 1e-6, "{found:?}");
+}
+
 /// A frame of one value everywhere, with a variance or none.
 fn constant(value: f32, variance: Option<f32>) -> Frame {
     let image = |v: f32| Image::filled(SIZE.0, SIZE.1, 3, v);
